@@ -118,7 +118,7 @@ void AnchoredContact::add_stiffness(FreeStiffness& stiffness, SlipStiffness of_s
   }
 }
 
-void AnchoredContact::expect(std::span<const Vec3> move) {
+void AnchoredContact::expect(std::span<const Vec3> move, bool) {
   for (std::size_t i = 0; i < touches_.size(); ++i) {
     Touch& t = touches_[i];
     if (t.limit < 0) continue;
@@ -132,7 +132,7 @@ void AnchoredContact::relimit() {
     if (t.limit >= 0) t.limit = options_.friction * t.push;
 }
 
-void AnchoredContact::move_anchors() {
+void AnchoredContact::move_anchors(std::span<const Vec3>) {
   for (Touch& t : touches_) {
     if (!(t.push > 0)) {
       t.limit = -1;
@@ -154,18 +154,18 @@ void AnchoredContact::carry_anchors(const std::function<Vec3(const Vec3&)>& way)
     if (t.limit >= 0) t.anchor += way(t.anchor);
 }
 
-int AnchoredContact::hold_new(std::span<const Vec3> from) {
-  int held = 0;
+bool AnchoredContact::hold_new(const StageStart& start, std::span<const Vec3>) {
+  bool found = false;
   for (std::size_t i = 0; i < touches_.size(); ++i) {
     Touch& t = touches_[i];
     if (!(t.push > 0) || t.limit >= 0) continue;
-    t.anchor = from[i];
+    t.anchor = start.on_body[i];
     t.plane = t.normal;
     t.limit = options_.friction * t.push;
     t.slides = false;
-    ++held;
+    found = true;
   }
-  return held;
+  return found;
 }
 
 void AnchoredContact::let_in(std::span<const Vec3> force, std::span<const char> begins) {
@@ -252,7 +252,7 @@ int AnchoredContact::touching() const {
   return int(std::count_if(touches_.begin(), touches_.end(), [](const Touch& t) { return t.push > 0; }));
 }
 
-std::vector<int> AnchoredContact::pushed() const {
+std::optional<std::vector<int>> AnchoredContact::pushed() const {
   std::vector<int> result;
   for (std::size_t i = 0; i < touches_.size(); ++i)
     if (touches_[i].push > 0) result.push_back(int(i));

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "physics/base/slip_stiffness.h"
+#include "physics/base/contact_term.h"
 #include "physics/base/thread_pool.h"
 #include "physics/body/collider.h"
 #include "physics/linear/free_stiffness.h"
@@ -35,21 +35,22 @@ struct BodyPlace {
 /// between calls of expect(), make_room(), stiffen() and move_anchors(). There a particle that pulls more
 /// than its limit drags its anchor along, and limits become those of the new push. So whatever rest is found,
 /// contact forces are in the friction cone; which of many such rests it is depends on the way there.
-class AnchoredContact {
+class AnchoredContact : public ContactTerm {
  public:
   /// The collider must outlive this object. Throws std::invalid_argument if an option is out of its range.
   AnchoredContact(const Collider& collider, const AnchoredContactOptions& options, std::size_t particles);
 
   /// Asks the body at x. All answers below are for these positions, and for particles that can move (inv_mass
   /// > 0).
-  void look(std::span<const Vec3> x, std::span<const double> inv_mass, ThreadPool* pool = nullptr);
-  double energy() const;                         ///< [J]
-  void add_forces(std::span<Vec3> force) const;  ///< [N]
-  /// Positive semidefinite.
-  void add_stiffness(FreeStiffness& stiffness, SlipStiffness of_slip = SlipStiffness::none) const;
-  void expect(std::span<const Vec3> move);  ///< limits become those of the push after a move [m]
-  void relimit();                           ///< limits become those of the push as it is
-  void move_anchors();
+  void look(std::span<const Vec3> x, std::span<const double> inv_mass, ThreadPool* pool = nullptr) override;
+  double energy() const override;
+  void add_forces(std::span<Vec3> force) const override;
+  void add_stiffness(FreeStiffness& stiffness, SlipStiffness of_slip = SlipStiffness::none) const override;
+  bool rubs() const override { return true; }
+  void expect(std::span<const Vec3> move, bool again = false) override;
+  void relimit();  ///< limits become those of the push as it is
+  void move_anchors(std::span<const Vec3> x = {}) override;
+  double longest_move() const override { return 0.02; }  ///< less than half of any limb
   /// Where the body leaves less room than the gap (between two fingers, under an arm), pushes from both sides
   /// meet in a kink at which no step succeeds. A particle may be pushed at `from` and, less than the gap
   /// away, from another side at `to` (normals over 60 degrees apart). From now on it rests within half the
@@ -63,9 +64,9 @@ class AnchoredContact {
   void place_body(const BodyPlace& place) { place_ = place; }
   /// For a body that changes its shape: each anchor goes the way [m] of the surface that it lies on.
   void carry_anchors(const std::function<Vec3(const Vec3&)>& way);
-  /// What is pushed and has no anchor gets one at `from`, its place before the step that brought it here, in
-  /// the body's frame: so friction in this step is bounded by this step's push. Returns how many that are.
-  int hold_new(std::span<const Vec3> from);
+  /// What is pushed and has no anchor gets one at its place before the step that brought it here, in the
+  /// body's frame: so friction in this step is bounded by this step's push. Whether there is such.
+  bool hold_new(const StageStart& start, std::span<const Vec3> x) override;
   /// For motion, so that what begins in the gap is not shot out: a particle that begins (not 0) and is pushed
   /// by more than other forces [N, one a particle] press it to the body may lie as deep as it does for now,
   /// and is pushed by that. Call look() again.
@@ -78,9 +79,13 @@ class AnchoredContact {
   void set_anchors(std::span<const ContactAnchor> anchors);
   /// The most by which SlipStiffness::secant holds back what slides, over mass times `inertia` [1/s^2] of it.
   double held_back(std::span<const double> mass, double inertia) const;
-  int touching() const;             ///< particles that are pushed
-  std::vector<int> pushed() const;  ///< which ones, rising
-  double deepest() const;           ///< of them, inside its gap [m]; 0: none
+  int touching() const;                                     ///< particles that are pushed
+  std::optional<std::vector<int>> pushed() const override;  ///< which ones, rising
+  double deepest() const;                                   ///< of them, inside its gap [m]; 0: none
+
+ protected:
+  Vec3 in_frame(const Vec3& x) const;  ///< the body's [m]
+  const BodyPlace* place() const { return place_ ? &*place_ : nullptr; }
 
  private:
   struct Touch : ContactAnchor {
@@ -90,7 +95,6 @@ class AnchoredContact {
     /// From the anchor, along the surface [m].
     Vec3 way() const { return x - anchor - plane.dot(x - anchor) * plane; }
   };
-  Vec3 in_frame(const Vec3& x) const;   ///< the body's [m]
   Vec3 force_of(const Touch& t) const;  ///< in the body's frame [N]
   double depth_of(double force) const;  ///< where soft_push() gives that force
 

@@ -156,7 +156,7 @@ FaceContact::Found FaceContact::find(std::span<const Vec3> x, std::span<const do
   return found;
 }
 
-void FaceContact::look(std::span<const Vec3> x) {
+void FaceContact::look(std::span<const Vec3> x, std::span<const double>, ThreadPool*) {
   const double k = options_.stiffness, s = 0.5 * options_.clearance;
   for (Point& p : points_) {
     p.energy = p.push = p.stiffness = 0;
@@ -187,7 +187,7 @@ void FaceContact::add_forces(std::span<Vec3> force) const {
 
 /// Where the elements do not couple two corners, their block stands on both diagonals instead, which is never
 /// less: 2 wi wj ai aj <= wi wj (ai^2 + aj^2).
-void FaceContact::add_stiffness(FreeStiffness& stiffness) const {
+void FaceContact::add_stiffness(FreeStiffness& stiffness, SlipStiffness) const {
   for (const Point& p : points_) {
     if (!(p.push > 0)) continue;
     const auto& t = triangles_[std::size_t(p.face)];

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "physics/base/contact_term.h"
 #include "physics/base/thread_pool.h"
 #include "physics/body/collider.h"
 #include "physics/linear/free_stiffness.h"
@@ -27,7 +28,7 @@ struct FaceContactOptions {
 /// \details With the points held this is the derivative of an energy. Levels are in the collider's distance,
 /// but set by the precise body's: a sampled field may be off by more than the gap, so each level is raised by
 /// what the precise distance lacks of the clearance, again by each find() that still sees the body there.
-class FaceContact {
+class FaceContact : public ContactTerm {
  public:
   struct Found {
     int through = 0;  ///< faces with a point inside the precise body, as far as find() sees
@@ -44,12 +45,13 @@ class FaceContact {
   /// 25 precise ones where the body is that near; shared by the pool's threads, the results do not depend on
   /// their number.
   Found find(std::span<const Vec3> x, std::span<const double> inv_mass, ThreadPool* pool = nullptr);
-  /// Asks the collider where the points are at x. The answers below are for these positions.
-  void look(std::span<const Vec3> x);
-  double energy() const;                         ///< [J]
-  void add_forces(std::span<Vec3> force) const;  ///< [N]
-  void add_stiffness(
-      FreeStiffness& stiffness) const;  ///< positive semidefinite: without the body's curvature
+  /// Asks the collider where the points are at x.
+  void look(std::span<const Vec3> x, std::span<const double> inv_mass = {},
+            ThreadPool* pool = nullptr) override;
+  double energy() const override;
+  void add_forces(std::span<Vec3> force) const override;
+  /// Without the body's curvature.
+  void add_stiffness(FreeStiffness& stiffness, SlipStiffness of_slip = SlipStiffness::none) const override;
   int points() const { return int(points_.size()); }
   int touching() const;  ///< points that are pushed
 

@@ -17,7 +17,6 @@ namespace {
 using Vectors = std::vector<Vec3>;
 
 constexpr double standard_gravity = 9.81;  // m/s^2: the scale of a tolerance, whatever acts
-constexpr double longest_move = 0.02;      // m, beside a body: less than half of any limb
 constexpr int most_iterations = 12;
 constexpr double push_over_inertia = 100;  // of a mean particle in a step
 constexpr int most_parts = 32;             // of a step
@@ -79,19 +78,18 @@ void ImplicitStep::prepare(double dt) {
 /// elements'.
 void ImplicitStep::begin_contact(Vectors pull) {
   const Particles& p = cloth_.particles;
-  AnchoredContact& anchored = contact_->anchored();
   const bool known = !anchors_.empty();
-  if (known) anchored.set_anchors(anchors_);
+  if (known) contact_->set_anchors(anchors_);
   if (known && fresh_.empty()) return;
   std::vector<char> fresh(p.size(), !known), begins;
   for (const int i : fresh_) fresh[std::size_t(i)] = 1;
   for (const int i : motion_.cloth().particle) begins.push_back(fresh[std::size_t(i)]);
   for (std::size_t i = 0; i < p.size(); ++i) pull[i] += p.mass[i] * motion_.loads().gravity;
-  anchored.look(p.x, p.inv_mass, &motion_.pool());
-  anchored.let_in(pull, begins);
+  contact_->look(p.x, p.inv_mass, &motion_.pool());
+  contact_->let_in(pull, begins);
   if (known) return;  // the step gives anchors to what it finds pushed and without one
-  anchored.look(p.x, p.inv_mass, &motion_.pool());
-  anchored.move_anchors();
+  contact_->look(p.x, p.inv_mass, &motion_.pool());
+  contact_->move_anchors();
 }
 
 void ImplicitStep::make_pairs() {
@@ -217,12 +215,6 @@ bool ImplicitStep::make_way(const Stage& stage, const StepLoads& loads, const St
   return true;
 }
 
-/// Friction takes hold where the stage ends.
-void ImplicitStep::hold(const Vectors& x) {
-  if (contact_) contact_->anchored().move_anchors();
-  if (pairs_) pairs_->move_anchors(x);
-}
-
 /// From the step's guess in x. true: the stage is solved, and friction has followed.
 ImplicitStep::Solved ImplicitStep::solve(const Stage& stage, const State& start, Interval time, int few,
                                          Vectors& x) {
@@ -237,10 +229,9 @@ ImplicitStep::Solved ImplicitStep::solve(const Stage& stage, const State& start,
   }
   // Parts may leave as much in velocity as the whole step may.
   const double tolerance = options_.tolerance * standard_gravity * h * h * time.parts;
-  const double longest = contact_ ? longest_move : std::numeric_limits<double>::infinity();
   const bool first_order = scheme_ == Integrator::implicit;
-  const SearchOptions options{tolerance, few,         most_iterations,
-                              longest,   first_order, first_order && options_.keep_factors};
+  const SearchOptions options{tolerance, few, most_iterations, first_order,
+                              first_order && options_.keep_factors};
   solved.loads = loads_at(time.to);
   const StageStart begin{start.x, carried};
   if (pairs_ && !make_way(stage, solved.loads, begin, options, x)) return solved;
@@ -248,7 +239,7 @@ ImplicitStep::Solved ImplicitStep::solve(const Stage& stage, const State& start,
   solved.forces = search_->found();
   if (contact_) solved.body_way = contact_->ways(carried, start.x);
   solved.carried = std::move(carried);
-  hold(x);
+  search_->hold(x);
   return solved;
 }
 
@@ -319,7 +310,7 @@ std::optional<ImplicitStep::State> ImplicitStep::tr_bdf2(const State& start, Int
   Stage trapezoid{1 / (b * b), 1 / b, sum(sum(start.x, 2 * b, start.v), b * b, start.a),
                   sum(scaled(-1 / b, start.x), -1, start.v)};
   FoundForces at_start{start.elements, {}, {}};
-  const auto anchors = contact_ ? contact_->anchored().anchors() : std::vector<ContactAnchor>{};
+  const auto anchors = contact_ ? contact_->anchors() : std::vector<ContactAnchor>{};
   State middle;
   middle.x = sum(start.x, gamma * h, start.v);
   const Solved to_middle = solve(trapezoid, start, first, most_iterations, middle.x);
@@ -353,12 +344,12 @@ std::optional<ImplicitStep::State> ImplicitStep::tr_bdf2(const State& start, Int
 
 /// By the scheme, else by backward Euler, else in halves.
 ImplicitStep::State ImplicitStep::advance(const State& start, Interval time) {
-  const auto anchors = contact_ ? contact_->anchored().anchors() : std::vector<ContactAnchor>{};
+  const auto anchors = contact_ ? contact_->anchors() : std::vector<ContactAnchor>{};
   const auto of_pairs = pairs_ ? pairs_->anchors() : std::vector<PairAnchor>{};
   const auto go_back = [&] {
     if (pairs_) pairs_->set_anchors(of_pairs, start.x, &motion_.pool());
     if (!contact_) return;
-    contact_->anchored().set_anchors(anchors);
+    contact_->set_anchors(anchors);
     contact_->move_body(time.from, time.from, {});
   };
   try {
@@ -400,7 +391,7 @@ void ImplicitStep::step(double dt) {
 
 /// What began in the gap is moved, not pushed: it gets no speed.
 void ImplicitStep::lead_out(double by, State& state) {
-  Vectors ways = contact_->anchored().lead_out(by);
+  Vectors ways = contact_->lead_out(by);
   if (std::all_of(ways.begin(), ways.end(), [](const Vec3& way) { return way.isZero(0); })) return;
   Vectors x = sum(state.x, 1, ways);
   if (pairs_) approach(state.x, x);
@@ -442,7 +433,7 @@ StepMemory ImplicitStep::memory() const {
   memory.self = pair_memory();
   memory.fresh = fresh_;
   memory.acceleration.resize(a_.size());
-  const auto anchors = contact_ ? contact_->anchored().anchors() : anchors_;
+  const auto anchors = contact_ ? contact_->anchors() : anchors_;
   memory.anchors.resize(anchors.size());
   for (std::size_t i = 0; i < particle.size(); ++i) {
     if (!a_.empty()) memory.acceleration[std::size_t(particle[i])] = a_[i];

@@ -67,7 +67,6 @@ class ImplicitStep : public Stepper {
   int approach(const std::vector<Vec3>& from, std::vector<Vec3>& x);
   bool make_way(const Stage& stage, const StepLoads& loads, const StageStart& start, SearchOptions options,
                 std::vector<Vec3>& x);
-  void hold(const std::vector<Vec3>& x);
   SelfContactMemory pair_memory() const;
   StepLoads loads_at(double time);
   State advance(const State& start, Interval time);

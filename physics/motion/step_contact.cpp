@@ -17,10 +17,9 @@ const Collider& asked(const BodyAround& body) {
 }  // namespace
 
 StepContact::StepContact(const BodyAround& body, double stiffness, std::size_t particles, double time)
-    : body_(body),
-      contact_(asked(body), AnchoredContactOptions{body.friction, body.gap, stiffness}, particles),
-      place_(place_at(time)) {
-  if (body_.motion) contact_.place_body(place_);
+    : AnchoredContact(asked(body), AnchoredContactOptions{body.friction, body.gap, stiffness}, particles),
+      body_(body) {
+  if (body_.motion) place_body(place_at(time));
 }
 
 BodyPlace StepContact::place_at(double time) const {
@@ -37,13 +36,12 @@ std::vector<Vec3> StepContact::move_body(double from, double to, std::span<const
     AnimatedBody& body = *body_.animated;
     body.prepare(from, to);
     const auto way = [&](const Vec3& p) -> Vec3 { return body.share() * body.way(p); };
-    contact_.carry_anchors(way);
+    carry_anchors(way);
     for (Vec3& p : carried)
       if (body.at(p).value < 2 * body_.gap + body.travel()) p += way(p);
   } else if (body_.motion) {
     const BodyPlace before = place_at(from);
-    place_ = place_at(to);
-    contact_.place_body(place_);
+    place_body(place_at(to));
     for (Vec3& p : carried) p = before.rotation.transpose() * (p - before.translation);
   }
   return carried;
@@ -52,7 +50,7 @@ std::vector<Vec3> StepContact::move_body(double from, double to, std::span<const
 std::vector<Vec3> StepContact::ways(std::span<const Vec3> carried, std::span<const Vec3> x) const {
   std::vector<Vec3> ways(carried.begin(), carried.end());
   for (std::size_t i = 0; i < ways.size(); ++i) {
-    if (body_.motion) ways[i] = place_.rotation * carried[i] + place_.translation;
+    if (place()) ways[i] = place()->rotation * carried[i] + place()->translation;
     ways[i] -= x[i];
   }
   return ways;
@@ -66,13 +64,14 @@ StepContact::Beside StepContact::beside(std::span<const Vec3> carried, std::vect
   for (Vec3& v : result.surface) v /= h;
   for (std::size_t i = 0; i < x0.size(); ++i)
     result.slip.push_back(0.5 * (v0[i] + (x1[i] - x0[i]) / h) - result.surface[i]);
-  if (!body_.motion) return result;
+  if (!place()) return result;
+  const BodyPlace& now = *place();
   const BodyPlace sooner = place_at(to - little), later = place_at(to + little), before = place_at(from - h);
-  const Mat3 turn = place_.rotation * place_at(from).rotation.transpose();
+  const Mat3 turn = now.rotation * place_at(from).rotation.transpose();
   for (std::size_t i = 0; i < x0.size(); ++i) {
-    const Vec3 on_body = carried[i], at_end = place_.rotation.transpose() * (x1[i] - place_.translation);
+    const Vec3 on_body = carried[i], at_end = now.rotation.transpose() * (x1[i] - now.translation);
     const Vec3 slip_before = v0[i] - (x0[i] - (before.rotation * on_body + before.translation)) / h;
-    const Vec3 slip_now = (x1[i] - (place_.rotation * on_body + place_.translation)) / h;
+    const Vec3 slip_now = (x1[i] - (now.rotation * on_body + now.translation)) / h;
     result.slip[i] = 0.5 * (slip_now + turn * slip_before);
     result.surface[i] =
         ((later.rotation - sooner.rotation) * at_end + later.translation - sooner.translation) / (2 * little);
@@ -100,10 +99,6 @@ Vec3 StepContact::slid(Vec3 from, const Vec3& to) const {
   return from;
 }
 
-Vec3 StepContact::in_frame(const Vec3& x) const {
-  return body_.motion ? Vec3(place_.rotation.transpose() * (x - place_.translation)) : x;
-}
-
 bool StepContact::cut_ways(std::span<const Vec3> x, std::span<const double> inv_mass, std::span<Vec3> to,
                            ThreadPool& pool) const {
   std::vector<Vec3> from(x.begin(), x.end());
@@ -122,7 +117,7 @@ void StepContact::keep_out(std::span<const Vec3> start, std::span<const double> 
       const Vec3 to = in_frame(x[i]);
       const Vec3 end_of_way = slid(start[i], to);
       if (end_of_way == to) continue;
-      x[i] = body_.motion ? Vec3(place_.rotation * end_of_way + place_.translation) : end_of_way;
+      x[i] = place() ? Vec3(place()->rotation * end_of_way + place()->translation) : end_of_way;
     }
   });
 }

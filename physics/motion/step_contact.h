@@ -21,7 +21,7 @@ struct BodyAround {
 };
 
 /// AnchoredContact with a body that may move: anchors go along with its surface.
-class StepContact {
+class StepContact : public AnchoredContact {
  public:
   /// What `body` points to must outlive this object. stiffness: of the push [N/m]; > 0.
   StepContact(const BodyAround& body, double stiffness, std::size_t particles, double time);
@@ -48,18 +48,13 @@ class StepContact {
   /// The same of ways from x, in the world where the body is now. Whether any was shortened.
   bool cut_ways(std::span<const Vec3> x, std::span<const double> inv_mass, std::span<Vec3> to,
                 ThreadPool& pool) const;
-  AnchoredContact& anchored() { return contact_; }
-  const AnchoredContact& anchored() const { return contact_; }
 
  private:
   BodyPlace place_at(double time) const;
   const Collider& collider() const;
   Vec3 slid(Vec3 from, const Vec3& to) const;
-  Vec3 in_frame(const Vec3& x) const;
 
   BodyAround body_;
-  AnchoredContact contact_;
-  BodyPlace place_;  ///< of a rigid body now
 };
 
 }  // namespace furrow::physics

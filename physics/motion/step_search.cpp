@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 #include "physics/base/cancel_scope.h"
 #include "physics/base/vector_sums.h"
@@ -11,16 +12,15 @@
 namespace furrow::physics {
 namespace {
 
-constexpr double good_enough = 20;         // times the tolerance, after few iterations
-constexpr double longest_enough = 3;       // times what is good enough in the mean
-constexpr double stretch_enough = 0.2;     // of an edge by a move that is good enough: few may be far off yet
-constexpr double short_move = 10;          // times the tolerance: the factors serve the next one
-constexpr int most_with_kept = 4;          // iterations with the factors of a search before
-constexpr double single_residual = 1e-4;   // of the force, that a solution of single precision may leave
-constexpr std::size_t most_coupled = 4;    // times the pairs of particles that contact couples
-constexpr double longest_in_cloth = 0.02;  // m, of a move where cloth touches cloth: few pairs are on its way
-constexpr int most_rounds = 4;             // in which friction follows the push
-constexpr double followed = 0.1;           // of the tolerance, for the move of another round
+constexpr double good_enough = 20;        // times the tolerance, after few iterations
+constexpr double longest_enough = 3;      // times what is good enough in the mean
+constexpr double stretch_enough = 0.2;    // of an edge by a move that is good enough: few may be far off yet
+constexpr double short_move = 10;         // times the tolerance: the factors serve the next one
+constexpr int most_with_kept = 4;         // iterations with the factors of a search before
+constexpr double single_residual = 1e-4;  // of the force, that a solution of single precision may leave
+constexpr std::size_t most_coupled = 4;   // times the pairs of particles that contact couples
+constexpr int most_rounds = 4;            // in which friction follows the push
+constexpr double followed = 0.1;          // of the tolerance, for the move of another round
 constexpr double armijo = 1e-4;
 constexpr double least_move_share = 1e-3;  // of a move
 constexpr double least_fall = 1e-12;       // of the energy, that can be told from rounding
@@ -60,13 +60,16 @@ StepSearch::StepSearch(const Cloth& cloth, Motion& motion, StepContact* contact,
   const Particles& p = cloth.particles;
   for (std::size_t i = 0; i < p.size(); ++i)
     if (p.inv_mass[i] > 0) mass_ += p.mass[i];
+  if (contact) contacts_.push_back({contact, WorkPart::contact});
+  if (pairs) contacts_.push_back({pairs, WorkPart::self_contact});
 }
 
 FoundForces StepSearch::found() const {
   FoundForces forces{{found_.elements, found_.pull}, pushes(), {}};
-  if (pairs_ && pairs_->acts()) {
-    forces.cloth.assign(found_.pull.size(), Vec3::Zero());
-    pairs_->add_forces(forces.cloth);
+  for (const Contact& c : contacts_) {
+    if (c.term == contact_) continue;
+    forces.cloth.resize(found_.pull.size(), Vec3::Zero());
+    c.term->add_forces(forces.cloth);
   }
   for (std::size_t i = 0; i < forces.body.size(); ++i)  // contact is far stiffer than what else is unsolved
     if (!forces.body[i].isZero(0)) forces.body[i] -= found_.net[i];
@@ -77,8 +80,12 @@ FoundForces StepSearch::found() const {
 std::vector<Vec3> StepSearch::pushes() const {
   if (!contact_) return {};
   std::vector<Vec3> force(cloth_.particles.size(), Vec3::Zero());
-  contact_->anchored().add_forces(force);
+  contact_->add_forces(force);
   return force;
+}
+
+void StepSearch::hold(std::span<const Vec3> x) {
+  for (const Contact& c : contacts_) c.term->move_anchors(x);
 }
 
 ElementAnswer StepSearch::elements_at(std::span<const Vec3> x) {
@@ -158,16 +165,10 @@ void StepSearch::add_stage(const std::vector<Vec3>& x, Answer& answer) const {
 void StepSearch::add_contact(const std::vector<Vec3>& x, Answer& answer) {
   answer.net = answer.pull;
   answer.energy = answer.elements;
-  if (contact_) {
-    const WorkClock::Within contact_part(clock_, WorkPart::contact);
-    AnchoredContact& contact = contact_->anchored();
-    answer.energy += contact.energy();
-    contact.add_forces(answer.net);
-  }
-  if (pairs_ && pairs_->acts()) {
-    const WorkClock::Within pair_part(clock_, WorkPart::self_contact);
-    answer.energy += pairs_->energy();
-    pairs_->add_forces(answer.net);
+  for (const Contact& c : contacts_) {
+    const WorkClock::Within part(clock_, c.part);
+    answer.energy += c.term->energy();
+    c.term->add_forces(answer.net);
   }
   answer.terms = std::abs(answer.energy);
   add_stage(x, answer);
@@ -181,15 +182,11 @@ StepSearch::Answer StepSearch::look(const std::vector<Vec3>& x) {
     answer.elements = elements_(x, answer.pull, pool_);
   }
   ++work_.force_evaluations;
-  if (contact_) {
-    const WorkClock::Within contact_part(clock_, WorkPart::contact);
-    contact_->anchored().look(x, cloth_.particles.inv_mass, &pool_);
-    met_ = met_ || contact_->anchored().touching() > 0;
+  for (const Contact& c : contacts_) {
+    const WorkClock::Within part(clock_, c.part);
+    c.term->look(x, cloth_.particles.inv_mass, &pool_);
   }
-  if (pairs_) {
-    const WorkClock::Within pair_part(clock_, WorkPart::self_contact);
-    pairs_->look(x, &pool_);
-  }
+  met_ = met_ || (contact_ && contact_->touching() > 0);
   add_contact(x, answer);
   return answer;
 }
@@ -225,8 +222,7 @@ void StepSearch::assemble(const std::vector<Vec3>& x, SlipStiffness of_slip) {
   const Particles& p = cloth_.particles;
   if (pairs_) couple_pairs();
   elements_.assemble(stiffness_, x, pool_);
-  if (pairs_) pairs_->add_stiffness(stiffness_, of_slip);
-  if (contact_) contact_->anchored().add_stiffness(stiffness_, of_slip);
+  for (std::size_t k = contacts_.size(); k-- > 0;) contacts_[k].term->add_stiffness(stiffness_, of_slip);
   const double factor = inertia_of(*stage_);
   for (std::size_t i = 0; i < p.size(); ++i)
     if (p.inv_mass[i] > 0) stiffness_.add(int(i), p.mass[i] * factor * Mat3::Identity());
@@ -237,8 +233,18 @@ double StepSearch::inertia_of(const Stage& stage) const { return stage.s + loads
 
 /// What is pushed no more, by the body or by cloth, would stay where it is, as if it still were.
 bool StepSearch::kept_factors_serve() const {
-  if (factored_ != inertia_of(*stage_) || (pairs_ && pairs_->acts())) return false;
-  return !contact_ || factored_pushed_ == contact_->anchored().pushed();
+  return factored_ == inertia_of(*stage_) && factored_pushed_ && factored_pushed_ == pushed();
+}
+
+/// None: factors with what is pushed now serve no other search.
+std::optional<std::vector<int>> StepSearch::pushed() const {
+  std::vector<int> all;
+  for (const Contact& c : contacts_) {
+    const std::optional<std::vector<int>> own = c.term->pushed();
+    if (!own) return std::nullopt;
+    all.insert(all.end(), own->begin(), own->end());
+  }
+  return all;
 }
 
 void StepSearch::factorise(const std::vector<Vec3>& x, SlipStiffness of_slip) {
@@ -251,8 +257,8 @@ void StepSearch::factorise(const std::vector<Vec3>& x, SlipStiffness of_slip) {
   // What is positive semidefinite and a mass beside it fails where numbers are not finite: the run is seen to
   // have diverged.
   if (!single_) stiffness_.factorise_definite(0, &pool_);
-  factored_ = pairs_ && pairs_->acts() ? 0 : inertia_of(*stage_);
-  if (contact_) factored_pushed_ = contact_->anchored().pushed();
+  factored_ = inertia_of(*stage_);
+  factored_pushed_ = pushed();
 }
 
 /// With factors of single precision what is left is looked at, and where it is too much they solve for it,
@@ -286,17 +292,16 @@ StepSearch::Way StepSearch::advance(const std::vector<Vec3>& move, std::vector<V
                                     const SearchOptions& options) {
   const double slope = -dot(here.net, move);
   const double longest = longest_length(move);
-  const bool touches = pairs_ && pairs_->acts();
-  const double most = touches ? std::min(longest_in_cloth, options.longest_move) : options.longest_move;
+  double most = std::numeric_limits<double>::infinity();
+  for (const Contact& c : contacts_) most = std::min(most, c.term->longest_move());
   double share = longest > most ? most / longest : 1;
   if (!(slope < 0) || !std::isfinite(longest)) return {0, false, false};
-  bool cut = false;
-  if (pairs_) {
-    const WorkClock::Within pair_part(clock_, WorkPart::self_contact);
-    const double open = share;
-    share = pairs_->safe_share(x, move, open, &pool_);
-    cut = share < 0.5 * open;
+  const double open = share;
+  for (const Contact& c : contacts_) {
+    const WorkClock::Within part(clock_, c.part);
+    share = c.term->safe_share(x, move, share, &pool_);
   }
+  const bool cut = share < 0.5 * open;
   const double wanted = share;
   for (const double least = least_move_share * share; share > least;) {
     std::vector<Vec3> trial = moved(x, share, move);
@@ -332,22 +337,19 @@ std::optional<StepSearch::Answer> StepSearch::land(const std::vector<Vec3>& from
 bool StepSearch::make_room(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
   if (!contact_) return false;
   const WorkClock::Within contact_part(clock_, WorkPart::contact);
-  return contact_->anchored().make_room(from, to, cloth_.particles.inv_mass) > 0;
+  return contact_->make_room(from, to, cloth_.particles.inv_mass) > 0;
 }
 
-bool StepSearch::rubs() const { return contact_ || (pairs_ && pairs_->rubs()); }
-
-/// Limits of friction become those of the push to come. That changes the energy: of cloth on cloth, once.
-void StepSearch::expect(const std::vector<Vec3>& move, bool of_cloth_too) {
-  if (contact_) contact_->anchored().expect(move);
-  if (pairs_ && of_cloth_too) pairs_->expect(move);
+bool StepSearch::rubs() const {
+  return std::any_of(contacts_.begin(), contacts_.end(), [](const Contact& c) { return c.term->rubs(); });
 }
 
 /// What has come to touch has friction, too. Whether the body has such, with limits of a push that is not
 /// solved for yet.
 bool StepSearch::hold_new(const StageStart& start, const std::vector<Vec3>& x) {
-  if (pairs_) pairs_->hold_new(start.x, x);
-  return contact_ && contact_->anchored().hold_new(start.on_body) > 0;
+  bool found = false;
+  for (const Contact& c : contacts_) found = c.term->hold_new(start, x) || found;
+  return found;
 }
 
 SearchEnd StepSearch::find(const Stage& stage, const StepLoads& given, const StageStart& start,
@@ -364,7 +366,7 @@ SearchEnd StepSearch::find(const Stage& stage, const StepLoads& given, const Sta
 
 /// How many times as far as their moves the factors' particles may have to go: the secant holds them back.
 double StepSearch::friction_bias() const {
-  return secant_ ? 1 + contact_->anchored().held_back(cloth_.particles.mass, inertia_of(*stage_)) : 1;
+  return secant_ ? 1 + contact_->held_back(cloth_.particles.mass, inertia_of(*stage_)) : 1;
 }
 
 /// Round by round, limits become those of the push as it is. What the factors at hand say of another round is
@@ -372,7 +374,7 @@ double StepSearch::friction_bias() const {
 void StepSearch::follow_friction(const StageStart& start, const SearchOptions& options, std::vector<Vec3>& x,
                                  Answer& here) {
   for (int round = 0; round < most_rounds; ++round) {
-    contact_->anchored().relimit();
+    contact_->relimit();
     hold_new(start, x);
     add_contact(x, here);
     if (friction_bias() * mean_length(solve(here.net)) <= followed * options.tolerance) return;
@@ -409,7 +411,7 @@ SearchEnd StepSearch::descend(const StageStart& start, const SearchOptions& opti
     }
     ++work_.iterations;
     if (relimit) {
-      expect(move, iteration == 1);
+      for (const Contact& c : contacts_) c.term->expect(move, iteration > 1);
       add_contact(x, here);
       move = solve(here.net);
     }

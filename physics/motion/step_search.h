@@ -27,18 +27,11 @@ struct StepLoads {
   std::vector<Vec3> air;    ///< w [m/s]; empty: at rest
 };
 
-/// Where a stage begins, for friction of what comes to touch in it.
-struct StageStart {
-  std::span<const Vec3> x;        ///< [m]
-  std::span<const Vec3> on_body;  ///< StepContact::move_body() of x; empty without a body
-};
-
 struct SearchOptions {
   double tolerance;  ///< root mean square of the next move that ends it, a third of the longest [m]; > 0
   /// Newton's iterations: after `few` a next move 20 times as long is good enough that changes no edge by
   /// more than a fifth, and after `most`, where that is more, it need be so short in the mean alone.
   int few, most;
-  double longest_move;  ///< of a particle in an iteration [m]; > 0
   /// In the first iteration, and after a move that was shortened, what slides is held back by its secant
   /// (SlipStiffness); limits of friction of what came to touch are those of the second move's push.
   bool careful = false;
@@ -56,7 +49,7 @@ struct ElementAnswer {
 struct FoundForces {
   ElementAnswer elements;
   std::vector<Vec3> body;   ///< of the body, as the motion had it; empty: none
-  std::vector<Vec3> cloth;  ///< of cloth on cloth; empty: none
+  std::vector<Vec3> cloth;  ///< of cloth on cloth, and of all other contacts; empty: none
 };
 
 struct SearchEnd {
@@ -80,6 +73,8 @@ class StepSearch {
                  const SearchOptions& options, std::vector<Vec3>& x);
   /// Where the last search ended, before anchors are moved.
   FoundForces found() const;
+  /// Friction takes hold where the last search ended, at x.
+  void hold(std::span<const Vec3> x);
   ElementAnswer elements_at(std::span<const Vec3> x);
   /// Half of the mean diagonal of the elements' stiffness at x [N/m], 1 without: a scale for contact.
   double contact_stiffness(std::span<const Vec3> x);
@@ -110,8 +105,13 @@ class StepSearch {
     double terms;            ///< sum of the sizes of what it is the sum of: rounding's scale [J]
   };
   Answer look(const std::vector<Vec3>& x);
+  /// What a contact costs counts as a part of its own.
+  struct Contact {
+    ContactTerm* term;
+    WorkPart part;
+  };
   bool rubs() const;
-  void expect(const std::vector<Vec3>& move, bool of_cloth_too);
+  std::optional<std::vector<int>> pushed() const;
   bool hold_new(const StageStart& start, const std::vector<Vec3>& x);
   void add_contact(const std::vector<Vec3>& x, Answer& answer);
   void add_stage(const std::vector<Vec3>& x, Answer& answer) const;
@@ -142,6 +142,7 @@ class StepSearch {
   const Loads& loads_;
   StepContact* contact_;
   ClothContact* pairs_;
+  std::vector<Contact> contacts_;  ///< the sum of these two
   ThreadPool& pool_;
   WorkCounts& work_;
   WorkClock& clock_;
@@ -154,7 +155,7 @@ class StepSearch {
   /// What the factors were made for, as far as it is compared: a particle's mass counts so many times
   /// [1/s^2], and these are pushed. 0: there are none.
   double factored_ = 0;
-  std::vector<int> factored_pushed_;
+  std::optional<std::vector<int>> factored_pushed_;
   FreeStiffness::Pairs coupled_;
   double mass_ = 0;  ///< of all free particles [kg]
   Answer found_;     ///< of where the last search ended

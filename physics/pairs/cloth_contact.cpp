@@ -427,9 +427,10 @@ std::vector<std::array<int, 2>> ClothContact::couples() const {
   return found;
 }
 
-void ClothContact::hold_new(std::span<const Vec3> from, std::span<const Vec3> x) {
-  friction_.hold_new(active_, from);
+bool ClothContact::hold_new(const StageStart& start, std::span<const Vec3> x) {
+  friction_.hold_new(active_, start.x);
   friction_.look(x);
+  return false;
 }
 
 void ClothContact::set_anchors(std::span<const PairAnchor> anchors, std::span<const Vec3> x,

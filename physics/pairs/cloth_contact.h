@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "physics/base/contact_term.h"
 #include "physics/base/thread_pool.h"
 #include "physics/linear/free_stiffness.h"
 #include "physics/pairs/edge_face_crossings.h"
@@ -29,7 +30,7 @@ struct ClothContactOptions {
 /// an edge and a face that cross at the start, and those nearer than 1e-7 m, do not count until widen() finds
 /// them apart; within a ring around them, neither do pairs that cross in their place, so that crossings can
 /// leave as they came. Results depend neither on the number of threads nor on the list's margin.
-class ClothContact {
+class ClothContact : public ContactTerm {
  public:
   /// start: positions at the start. drawn: in which nothing is to be pushed; may be empty. Throws
   /// std::invalid_argument if an option is out of its range or lengths differ.
@@ -61,7 +62,8 @@ class ClothContact {
 
   /// The largest share, at most `most`, of a move [m] from x at which nothing has passed through anything:
   /// less than `most` only where the way is cut, or leads a thousand kilometres; 0 if it is not finite.
-  double safe_share(std::span<const Vec3> x, std::span<const Vec3> move, double most, ThreadPool* pool);
+  double safe_share(std::span<const Vec3> x, std::span<const Vec3> move, double most,
+                    ThreadPool* pool) override;
   /// Moves x towards other positions [m], each vertex until something is in its way. Returns how many did not
   /// arrive. For starts: a vertex that was stopped stays, however far the others go.
   int approach(std::span<Vec3> x, std::span<const Vec3> to, ThreadPool* pool);
@@ -78,8 +80,10 @@ class ClothContact {
   const std::vector<Met>& meet(std::span<const Vec3> x, std::span<const Vec3> move, ThreadPool* pool);
   /// Finds the pairs that touch at x. The answers below are for these positions.
   void look(std::span<const Vec3> x, ThreadPool* pool);
-  double energy() const { return energy_ + friction_.energy(); }  ///< [J]; infinite where something touches
-  void add_forces(std::span<Vec3> force) const;                   ///< [N]
+  void look(std::span<const Vec3> x, std::span<const double>, ThreadPool* pool) override { look(x, pool); }
+  /// [J]; infinite where something touches
+  double energy() const override { return energy_ + friction_.energy(); }
+  void add_forces(std::span<Vec3> force) const override;
   /// The particles (i, j), i after j, that pairs couple now: sorted, each once.
   std::vector<std::array<int, 2>> couples() const;
   /// Whether the matrix lacks blocks that pairs need.
@@ -88,12 +92,19 @@ class ClothContact {
   void couple(FreeStiffness& stiffness) const;
   /// Positive semidefinite; after couple(). Where the way was cut to less than 1/32, the pairs that did so
   /// count as if they were half their range apart.
-  void add_stiffness(FreeStiffness& stiffness, SlipStiffness of_slip = SlipStiffness::none) const;
-  /// As those of AnchoredContact, of the friction between layers, x being where it was looked last.
-  void move_anchors(std::span<const Vec3> x) { friction_.move_anchors(active_, x); }
-  void expect(std::span<const Vec3> move) { friction_.expect(active_, move); }
-  /// Pairs that push each other since the last move_anchors() have friction from positions `from` on.
-  void hold_new(std::span<const Vec3> from, std::span<const Vec3> x);
+  void add_stiffness(FreeStiffness& stiffness, SlipStiffness of_slip = SlipStiffness::none) const override;
+  /// As those of AnchoredContact, of the friction between layers. Limits change once in a search.
+  void move_anchors(std::span<const Vec3> x) override { friction_.move_anchors(active_, x); }
+  void expect(std::span<const Vec3> move, bool again = false) override {
+    if (!again) friction_.expect(active_, move);
+  }
+  /// Pairs that push each other since the last move_anchors() have friction from the start on.
+  bool hold_new(const StageStart& start, std::span<const Vec3> x) override;
+  /// Short where cloth touches cloth [m]: few pairs are on its way.
+  double longest_move() const override { return acts() ? 0.02 : ContactTerm::longest_move(); }
+  std::optional<std::vector<int>> pushed() const override {
+    return acts() ? std::nullopt : std::optional(std::vector<int>{});
+  }
   std::vector<PairAnchor> anchors() const { return friction_.anchors(); }
   /// As before, x being where move_anchors() was called then: looks there.
   void set_anchors(std::span<const PairAnchor> anchors, std::span<const Vec3> x, ThreadPool* pool);
@@ -102,7 +113,7 @@ class ClothContact {
   bool widen(std::span<const Vec3> x);
 
   bool acts() const { return !active_.empty() || !friction_.empty(); }  ///< it has forces
-  bool rubs() const { return options_.friction > 0 && acts(); }         ///< with friction
+  bool rubs() const override { return options_.friction > 0 && acts(); }
   /// Whether it has changed anything so far: something crossed or lay nearer than its range, or a way was
   /// cut.
   bool has_acted() const { return acted_; }

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "physics/base/slip_stiffness.h"
+#include "physics/base/contact_term.h"
 #include "physics/linear/free_stiffness.h"
 #include "physics/pairs/active_pair.h"
 

@@ -144,12 +144,15 @@ class Settler {
                      ClothContactOptions{o_.self.thickness, k > 0 ? k : 1, o_.self.friction,
                                          o_.self.thicknesses, o_.self.groups},
                      p_.x, o_.self.drawn, &pool_);
-    if (!collider) return;
-    contact_.emplace(*collider, AnchoredContactOptions{o_.friction, o_.gap, k > 0 ? k : 1}, p_.size());
-    if (!o_.faces.body) return;
     const double clearance = std::min(o_.gap / 6, 5e-4);
-    faces_.emplace(*collider, *o_.faces.body, cloth.triangles,
-                   FaceContactOptions{clearance, o_.faces.error, face_stiffness * (k > 0 ? k : 1)});
+    if (collider)
+      contact_.emplace(*collider, AnchoredContactOptions{o_.friction, o_.gap, k > 0 ? k : 1}, p_.size());
+    if (collider && o_.faces.body)
+      faces_.emplace(*collider, *o_.faces.body, cloth.triangles,
+                     FaceContactOptions{clearance, o_.faces.error, face_stiffness * (k > 0 ? k : 1)});
+    if (contact_) contacts_.push_back(&*contact_);
+    if (faces_) contacts_.push_back(&*faces_);
+    if (pairs_) contacts_.push_back(&*pairs_);
   }
 
   SettleReport run(const SettleObserver& observer) {
@@ -251,17 +254,14 @@ class Settler {
   }
 
   void ask_contacts(const Vectors& x) {
-    if (contact_) contact_->look(x, p_.inv_mass, &pool_);
-    if (faces_) faces_->look(x);
-    if (pairs_) pairs_->look(x, &pool_);
+    for (ContactTerm* c : contacts_) c->look(x, p_.inv_mass, &pool_);
   }
 
+  /// What the body does to particles it finds by itself.
   double residual(const Answer& at) const {
-    const bool faces = faces_ && faces_->points() > 0, pairs = pairs_ && pairs_->acts();
-    if (!faces && !pairs) return residual_of(at.force, p_, o_.gravity, collider_, o_.friction, o_.gap);
     Vectors force = at.force;
-    if (faces) faces_->add_forces(force);
-    if (pairs) pairs_->add_forces(force);
+    for (const ContactTerm* c : contacts_)
+      if (!contact_ || c != &*contact_) c->add_forces(force);
     return residual_of(force, p_, o_.gravity, collider_, o_.friction, o_.gap);
   }
 
@@ -277,18 +277,15 @@ class Settler {
 
   /// [J], with the contact's, which must have been asked there last.
   double energy(const Answer& at) const {
-    double sum = contact_ ? at.energy + contact_->energy() : at.energy;
-    if (faces_ && faces_->points()) sum += faces_->energy();
-    if (pairs_ && pairs_->acts()) sum += pairs_->energy();
+    double sum = at.energy;
+    for (const ContactTerm* c : contacts_) sum += c->energy();
     return sum;
   }
 
   /// Of elements, weight and contact [N]; 0 on what is held. As energy().
   Vectors net_force(const Answer& at) const {
     Vectors net = at.force;
-    if (contact_) contact_->add_forces(net);
-    if (faces_) faces_->add_forces(net);
-    if (pairs_) pairs_->add_forces(net);
+    for (const ContactTerm* c : contacts_) c->add_forces(net);
     for (std::size_t i = 0; i < net.size(); ++i) {
       if (p_.inv_mass[i] > 0)
         net[i] += p_.mass[i] * o_.gravity;
@@ -302,7 +299,7 @@ class Settler {
   Answer stiffen() {
     const Vectors before = p_.x;
     contact_->stiffen(stiffer, p_.x);
-    if (pairs_) keep_apart(before, p_.x);
+    keep_apart(before, p_.x);
     Answer answer = look(p_.x);
     move_anchors();
     return answer;
@@ -310,21 +307,24 @@ class Settler {
 
   /// Friction takes hold where the particles are; contacts were asked there last.
   void move_anchors() {
-    if (contact_) contact_->move_anchors();
-    if (pairs_) pairs_->move_anchors(p_.x);
+    for (ContactTerm* c : contacts_) c->move_anchors(p_.x);
   }
 
   /// Limits of friction become those of after a move.
   void expect(const Vectors& way) {
-    if (contact_) contact_->expect(way);
-    if (pairs_) pairs_->expect(way);
+    for (ContactTerm* c : contacts_) c->expect(way);
+  }
+
+  double safe_share(const Vectors& from, const Vectors& way, double share) {
+    for (ContactTerm* c : contacts_) share = c->safe_share(from, way, share, &pool_);
+    return share;
   }
 
   /// Positions that were reached from others, without what would pass through cloth on the way.
   void keep_apart(const Vectors& from, Vectors& to) {
     Vectors way = to;
     add_multiple(way, -1, from);
-    const double share = pairs_->safe_share(from, way, 1, &pool_);
+    const double share = safe_share(from, way, 1);
     if (share < 1) to = moved(from, share, way);
   }
 
@@ -343,9 +343,7 @@ class Settler {
     for (int tries = 1;; ++tries) {
       throw_if_cancelled("settle");
       stiffness_->assemble(cloth_, p_.x, {clamp}, &pool_);
-      if (contact_) contact_->add_stiffness(*stiffness_);
-      if (faces_) faces_->add_stiffness(*stiffness_);
-      if (pairs_) pairs_->add_stiffness(*stiffness_);
+      for (const ContactTerm* c : contacts_) c->add_stiffness(*stiffness_, SlipStiffness::none);
       for (std::size_t i = 0; i < p_.size(); ++i)
         if (p_.inv_mass[i] > 0)
           stiffness_->add(int(i), p_.mass[i] / (pace.tau * pace.tau) * Mat3::Identity());
@@ -397,12 +395,12 @@ class Settler {
     LimitedMemory inverse([this](std::span<Vec3> f) { stiffness_->solve(f, &pool_); }, most_followers);
     Vectors net = net_force(here);
     Move move = find_move(inverse, net);
-    if ((contact_ || pairs_) && near) {
+    if (!contacts_.empty() && near) {
       expect(move.way);
       net = net_force(here);
       move = find_move(inverse, net);
     }
-    if (pairs_) move.share = pairs_->safe_share(p_.x, move.way, move.share, &pool_);
+    move.share = safe_share(p_.x, move.way, move.share);
     Trial trial = search(here, net, move);
     const double share = trial.share;
     const bool refused = contact_ && share < move.share;
@@ -430,7 +428,7 @@ class Settler {
       const double fall = dot(net, move.way);
       most = std::max(most, fall);
       if (fall < follow_until * most || is_cancelled()) return k;
-      if (pairs_) move.share = pairs_->safe_share(p_.x, move.way, move.share, &pool_);
+      move.share = safe_share(p_.x, move.way, move.share);
       if (pairs_ && pairs_->blocked() > 0) return k;  // these factors do not know what cuts the way
       Trial trial = search(here, net, move);
       if (trial.share == 0) return k;
@@ -455,7 +453,8 @@ class Settler {
   std::optional<AnchoredContact> contact_;
   std::optional<FaceContact> faces_;
   std::optional<ClothContact> pairs_;
-  std::optional<Rest> best_;  ///< with faces_
+  std::vector<ContactTerm*> contacts_;  ///< the sum of these three
+  std::optional<Rest> best_;            ///< with faces_
   int face_rounds_ = 0, round_ends_ = std::numeric_limits<int>::max();
   int refused_ = 0;  ///< steps running
 };
