@@ -312,6 +312,7 @@ SimulateReport simulate(Cloth& cloth, const World& world, const SimulateOptions&
     simulation.emplace(cloth, world, options, present);
   } catch (const Cancelled&) {  // cloth and state are as they were
     report.outcome = Outcome::stopped_by_observer;
+    report.dt_smallest = report.dt_limit_smallest = 0;
     report.time = present.time;
     report.steps = present.step;
     return report;

@@ -87,18 +87,22 @@ struct LongestEdge {
 
 /// What a report counts over all calls that shared a state.
 struct SimulateTotals {
-  std::int64_t force_evaluations = 0, collider_queries = 0, truncated_moves = 0;
+  std::int64_t force_evaluations = 0, collider_queries = 0;
+  std::int64_t truncated_moves = 0;                                    ///< cut short against tunnelling
   std::int64_t linear_solves = 0, factorisations = 0, iterations = 0;  ///< see WorkCounts
+  /// Elements times evaluations; 0 shows that a kind that is absent cost nothing.
   std::int64_t spring_evaluations = 0, triangle_evaluations = 0, hinge_evaluations = 0;
-  std::int64_t open_steps = 0;  ///< see WorkCounts
-  std::int64_t cut_moves = 0;   ///< see SimulateReport
-  std::int64_t limit_estimates = 0, frames_built = 0;
-  EnergyBalance energy;
-  LongestEdge longest_edge;
+  std::int64_t open_steps = 0;  ///< implicit ones whose search did not end, even in 32 parts
+  std::int64_t cut_moves = 0;   ///< of particles, so that cloth does not pass through cloth
+  std::int64_t limit_estimates = 0;
+  std::int64_t frames_built = 0;  ///< fields of an animated body
+  EnergyBalance energy;           ///< of implicit steps
+  LongestEdge longest_edge;       ///< after any step of implicit ones, of others each 128th
   double dt_smallest = std::numeric_limits<double>::infinity();        ///< [s]
   double dt_limit_smallest = std::numeric_limits<double>::infinity();  ///< of leapfrog [s]
-  double seconds = 0, cpu_seconds = 0, frame_seconds = 0;              ///< [s]
-  WorkTimes times{};  ///< processor time by part, of calls that measured it [s]
+  double seconds = 0, cpu_seconds = 0;  ///< clock and processor time (all threads) [s]
+  double frame_seconds = 0;             ///< clock time spent on fields of an animated body [s]
+  WorkTimes times{};                    ///< processor time by part, of calls that measured it [s]
 };
 
 /// Forces that keep a cloth from jumping when its springs were changed under strain: applied as
@@ -299,36 +303,21 @@ struct SelfContactState {
   int exempt = 0;            ///< pairs of those that did not come apart
 };
 
-/// Counts, times and smallest steps are of all calls that shared a state.
-struct SimulateReport {
+/// The totals' smallest limit is that of the integrator here.
+struct SimulateReport : SimulateTotals {
   Outcome outcome = Outcome::finished;
   std::int64_t steps = 0;
-  double time = 0;                      ///< reached [s]
-  double dt = 0, dt_smallest = 0;       ///< of the last step, and the smallest [s]
-  double dt_limit = 0;                  ///< of the integrator, as last estimated [s]; infinity: there is none
-  double dt_limit_smallest = 0;         ///< [s]
-  double seconds = 0, cpu_seconds = 0;  ///< clock and processor time (all threads) [s]
-  WorkTimes times{};                    ///< processor time by part, where that was asked for [s]
-  StrainStatistics strain;              ///< structural springs (else edges of the membrane) at the end
-  LongestEdge longest_edge;             ///< after any step of implicit ones, of others each 128th
-  double kinetic_energy = 0;            ///< [J]; what rests on the body keeps the last half-kick, g dt/2
-  EnergyBalance energy;                 ///< of implicit steps
+  double time = 0;            ///< reached [s]
+  double dt = 0;              ///< of the last step [s]
+  double dt_limit = 0;        ///< of the integrator, as last estimated [s]; infinity: there is none
+  StrainStatistics strain;    ///< structural springs (else edges of the membrane) at the end
+  double kinetic_energy = 0;  ///< [J]; what rests on the body keeps the last half-kick, g dt/2
   double residual_force =
       0;             ///< see residual_force() [-]; of springs, weight and contact with a body at rest
   int contacts = 0;  ///< particles at the body at the end
-  int limit_estimates = 0;
-  std::int64_t force_evaluations = 0, collider_queries = 0;
-  std::int64_t linear_solves = 0, factorisations = 0, iterations = 0;  ///< see WorkCounts
-  /// Elements times evaluations; 0 shows that a kind that is absent cost nothing.
-  std::int64_t spring_evaluations = 0, triangle_evaluations = 0, hinge_evaluations = 0;
-  std::int64_t open_steps = 0;       ///< implicit ones whose search did not end, even in 32 parts
-  std::int64_t truncated_moves = 0;  ///< cut short against tunnelling
-  std::int64_t cut_moves = 0;        ///< of particles, so that cloth does not pass through cloth
-  bool held_by_cuts = false;         ///< it diverged as these were too many
+  bool held_by_cuts = false;  ///< it diverged as cut_moves were too many
   SelfContactState self;
   Vec3 blocked_at = Vec3::Zero();          ///< where, if it was [m]
-  std::int64_t frames_built = 0;           ///< fields of an animated body
-  double frame_seconds = 0;                ///< clock time spent on them [s]
   double compensation_left = 0;            ///< share of the compensating forces that still acts [-]
   Vec3 compensation_force = Vec3::Zero();  ///< their sum now [N]
 };

@@ -12,29 +12,10 @@ namespace furrow::physics {
 namespace {
 
 void take_counts(const SimulateState& state, SimulateReport& report) {
-  const SimulateTotals& totals = state.totals;
+  static_cast<SimulateTotals&>(report) = state.totals;
+  if (state.step == 0) report.dt_smallest = report.dt;
   report.steps = state.step;
   report.time = state.time;
-  report.dt_smallest = state.step > 0 ? totals.dt_smallest : report.dt;
-  report.limit_estimates = int(totals.limit_estimates);
-  report.force_evaluations = totals.force_evaluations;
-  report.linear_solves = totals.linear_solves;
-  report.factorisations = totals.factorisations;
-  report.iterations = totals.iterations;
-  report.open_steps = totals.open_steps;
-  report.energy = totals.energy;
-  report.longest_edge = totals.longest_edge;
-  report.spring_evaluations = totals.spring_evaluations;
-  report.triangle_evaluations = totals.triangle_evaluations;
-  report.hinge_evaluations = totals.hinge_evaluations;
-  report.collider_queries = totals.collider_queries;
-  report.truncated_moves = totals.truncated_moves;
-  report.cut_moves = totals.cut_moves;
-  report.frames_built = totals.frames_built;
-  report.frame_seconds = totals.frame_seconds;
-  report.seconds = totals.seconds;
-  report.cpu_seconds = totals.cpu_seconds;
-  report.times = totals.times;
   report.compensation_left = share_left(state.compensation, state.time);
   report.compensation_force = net_force(state.compensation, state.time);
 }

@@ -4,8 +4,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "physics/pairs/box_grid.h"
+#include "physics/pairs/box_tree.h"
 #include "physics/pairs/pair_distance.h"
 
 namespace furrow::physics {
@@ -39,25 +40,49 @@ bool crosses(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const V
   return !in_doubt || touches(p, q, a, b, c);
 }
 
+/// Numbers of edges so that neighbours stand next to each other: sorted by the bits of their middles'
+/// coordinates, those of the three axes in turns (a Z-order curve).
+std::vector<int> along_a_curve(const std::vector<std::array<int, 2>>& edges, const FloatSweep& sweep) {
+  LaneBox all = empty_box();
+  for (const Float4& p : sweep.at) all = {min(all.low, p), max(all.high, p)};
+  const Float4 side = all.high - all.low;
+  const float longest = std::max({side[0], side[1], side[2]}), scale = longest > 0 ? 1023 / longest : 0;
+  std::vector<std::pair<std::uint32_t, int>> keyed;
+  for (const auto& [a, b] : edges) {
+    const Float4 middle = 0.5f * (sweep.at[std::size_t(a)] + sweep.at[std::size_t(b)]) - all.low;
+    std::uint32_t key = 0;
+    for (int bit = 9; bit >= 0; --bit)
+      for (int axis = 0; axis < 3; ++axis) key = key << 1 | (std::uint32_t(middle[axis] * scale) >> bit & 1);
+    keyed.emplace_back(key, int(keyed.size()));
+  }
+  std::sort(keyed.begin(), keyed.end());
+  std::vector<int> order;
+  for (const auto& [key, edge] : keyed) order.push_back(edge);
+  return order;
+}
+
 }  // namespace
 
 std::vector<EdgeFaceCrossing> edge_face_crossings(const PairMesh& mesh, std::span<const Vec3> x) {
   std::vector<EdgeFaceCrossing> found;
   if (mesh.edges.empty()) return found;
   const auto at = [&x](int v) -> const Vec3& { return x[std::size_t(v)]; };
-  const Vec3 origin = at(mesh.edges[0][0]);
-  std::vector<FloatBox> boxes;
-  boxes.reserve(mesh.edges.size());
-  double sides = 0;
-  for (const auto& e : mesh.edges) {
-    boxes.push_back(box_around(std::array{at(e[0]), at(e[1])}, origin, 0));
-    sides += (at(e[1]) - at(e[0])).lpNorm<Eigen::Infinity>();
+  FloatSweep sweep;
+  sweep.assign(x, {}, at(mesh.edges[0][0]));
+  const std::vector<int> order = along_a_curve(mesh.edges, sweep);
+  std::vector<FourBoxes> boxes;
+  for (std::size_t i = 0; i < order.size(); i += 4) {
+    std::array<LaneBox, 4> four;
+    for (std::size_t j = 0; j < 4; ++j)
+      four[j] = i + j < order.size() ? sweep.box(mesh.edges[std::size_t(order[i + j])], 0) : empty_box();
+    boxes.push_back(FourBoxes::of(four));
   }
-  const double mean = sides / double(mesh.edges.size());
-  const BoxGrid grid(boxes, mean > 0 ? mean : 1);
+  BoxTree tree;
+  tree.assign(std::move(boxes));
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& f = mesh.triangles[t];
-    grid.each_meeting(box_around(std::array{at(f[0]), at(f[1]), at(f[2])}, origin, 0), [&](int number) {
+    tree.each_meeting(sweep.box(f, 0), 0, [&](int place) {
+      const int number = order[std::size_t(place)];
       const auto& e = mesh.edges[std::size_t(number)];
       for (const int v : f)
         if (v == e[0] || v == e[1] || !may_touch(mesh, v, e[0])) return;

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 furrow_add_tests(pairs physics LIBRARIES furrow::physics cases SOURCES
   pairs/barrier_test.cpp
-  pairs/box_grid_test.cpp
   pairs/box_tree_test.cpp
   pairs/cloth_contact_test.cpp
   pairs/edge_face_crossings_test.cpp
