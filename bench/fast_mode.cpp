@@ -16,6 +16,8 @@ using namespace furrow::tests;
 
 namespace {
 
+constexpr const char* outcomes[] = {"converged", "limit cycle", "unfinished", "stopped", "diverged"};
+
 /// The whole weight divided by the number of particles (method S2.5).
 void weigh_evenly(Particles& p) {
   const double sum = std::accumulate(p.mass.begin(), p.mass.end(), 0.0);
@@ -74,8 +76,8 @@ void scene(const std::string& folder) {
     const DisplaceReport report = displace_by_force(cloth, &ball, options, observer);
     std::printf(
         "cap %s: %s after %d passes, residual %g, %lld forces replaced, %d of %zu touch, shown after %d\n",
-        cap ? "on" : "off", name_of(report.outcome), report.passes, report.residual, report.capped,
-        report.touching, cloth.particles.size(), shown);
+        cap ? "on" : "off", outcomes[std::size_t(report.outcome)], report.passes, report.residual,
+        report.capped, report.touching, cloth.particles.size(), shown);
     write_obj(folder + (cap ? "/on.obj" : "/off.obj"), last, cloth.triangles);
   }
 }

@@ -42,7 +42,7 @@ int main() {
   for (const Case& c : {Case{"leapfrog", {Integrator::leapfrog}, 0.9 * limit, 4000},
                         Case{"RK4", {Integrator::rk4}, 0.9 * rk4_limit / 2 * limit, 2000},
                         Case{"implicit", {Integrator::implicit}, 1.0 / 60, 40},
-                        Case{"XPBD, 10 sweeps", {Integrator::xpbd, {10, 0}}, 1.0 / 1200, 1000},
-                        Case{"XPBD, 1 sweep", {Integrator::xpbd, {1, 0}}, 1.0 / 1200, 4000}})
+                        Case{"XPBD, 10 sweeps", {Integrator::xpbd, {10}}, 1.0 / 1200, 1000},
+                        Case{"XPBD, 1 sweep", {Integrator::xpbd, {1}}, 1.0 / 1200, 4000}})
     measure(cloth, c);
 }

@@ -54,7 +54,7 @@ void chart_contact(const std::string& folder, Effort effort) {
   const Panel panels[] = {
       {"leapfrog", {Integrator::leapfrog}, 0}, {"leapfrog", {Integrator::leapfrog}, 0.3},
       {"semi-implicit", {semi_implicit}, 0},   {"RK4", {Integrator::rk4}, 0},
-      {"implicit", {Integrator::implicit}, 0}, {"XPBD 1 sweep", {Integrator::xpbd, {1, 0}}, 0}};
+      {"implicit", {Integrator::implicit}, 0}, {"XPBD 1 sweep", {Integrator::xpbd, {1}}, 0}};
   const int per_decade = effort == Effort::quick ? 1 : 2;
   for (const Panel& panel : panels) {
     const bool any = physics::is_unconditionally_stable(panel.options.integrator);

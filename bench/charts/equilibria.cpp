@@ -73,8 +73,8 @@ struct Method {
 constexpr Method methods[] = {{"semi-implicit Euler 0.9", {semi_implicit}, 0.9},
                               {"leapfrog 0.9", {Integrator::leapfrog}, 0.9},
                               {"RK4 1.2", {Integrator::rk4}, 1.2},
-                              {"XPBD 1 sweep 1/1200 s", {Integrator::xpbd, {1, 0}}, 1.0 / 1200},
-                              {"XPBD 10 sweeps 1/240 s", {Integrator::xpbd, {10, 0}}, 1.0 / 240},
+                              {"XPBD 1 sweep 1/1200 s", {Integrator::xpbd, {1}}, 1.0 / 1200},
+                              {"XPBD 10 sweeps 1/240 s", {Integrator::xpbd, {10}}, 1.0 / 240},
                               {"implicit 1/240 s", {Integrator::implicit}, 1.0 / 240},
                               {"implicit 1/60 s", {Integrator::implicit}, 1.0 / 60},
                               {"implicit 1/15 s", {Integrator::implicit}, 1.0 / 15}};

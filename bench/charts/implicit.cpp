@@ -44,7 +44,7 @@ std::vector<Method> methods(bool springs) {
   std::vector<Method> list{{"leapfrog", {Integrator::leapfrog}, true, {0.9, 0.45}},
                            {"implicit", {Integrator::implicit}, false, frames},
                            {"tr-bdf2", {Integrator::tr_bdf2}, false, frames}};
-  if (springs) list.push_back({"XPBD 1 sweep", {Integrator::xpbd, {1, 0}}, false, short_ones});
+  if (springs) list.push_back({"XPBD 1 sweep", {Integrator::xpbd, {1}}, false, short_ones});
   return list;
 }
 

@@ -78,9 +78,9 @@ std::vector<Method> methods() {
           {"leapfrog", {Integrator::leapfrog}, 1, true, symplectic},
           {"RK4", {Integrator::rk4}, 4, true, {1.55, 1.35, 1.1, 0.8, 0.5, 0.4}},
           {"implicit", {Integrator::implicit}, 300, false, seconds},
-          {"XPBD 1 sweep", {Integrator::xpbd, {1, 0}}, 2, false, seconds},
-          {"XPBD 10 sweeps", {Integrator::xpbd, {10, 0}}, 15, false, seconds},
-          {"XPBD 100 sweeps", {Integrator::xpbd, {100, 0}}, 150, false, seconds}};
+          {"XPBD 1 sweep", {Integrator::xpbd, {1}}, 2, false, seconds},
+          {"XPBD 10 sweeps", {Integrator::xpbd, {10}}, 15, false, seconds},
+          {"XPBD 100 sweeps", {Integrator::xpbd, {100}}, 150, false, seconds}};
 }
 
 struct Point {

@@ -5,6 +5,16 @@
 
 namespace furrow::physics {
 
+/// A Pose as a matrix, for many points.
+struct BodyPlace {
+  Mat3 rotation = Mat3::Identity();
+  Vec3 translation = Vec3::Zero();  ///< [m]
+  BodyPlace() = default;
+  explicit BodyPlace(const Pose& p) : rotation(p.rotation.toRotationMatrix()), translation(p.translation) {}
+  Vec3 to_body(const Vec3& x) const { return rotation.transpose() * (x - translation); }
+  Vec3 to_world(const Vec3& x) const { return rotation * x + translation; }
+};
+
 /// A body somewhere else: `body`, given in its own frame, at a pose. The body must outlive it.
 class PosedCollider : public Collider {
  public:

@@ -42,9 +42,7 @@ double AnchoredContact::depth_of(double force) const {
   return force < 0.5 * k * s ? std::sqrt(2 * force * s / k) : force / k + 0.5 * s;
 }
 
-Vec3 AnchoredContact::in_frame(const Vec3& x) const {
-  return place_ ? Vec3(place_->rotation.transpose() * (x - place_->translation)) : x;
-}
+Vec3 AnchoredContact::in_frame(const Vec3& x) const { return place_ ? place_->to_body(x) : x; }
 
 void AnchoredContact::look(std::span<const Vec3> x, std::span<const double> inv_mass, ThreadPool* pool) {
   for_all(pool, x.size(), [&](std::size_t i) {

@@ -7,7 +7,7 @@
 
 #include "physics/base/contact_term.h"
 #include "physics/base/thread_pool.h"
-#include "physics/body/collider.h"
+#include "physics/body/posed_collider.h"
 #include "physics/linear/free_stiffness.h"
 
 namespace furrow::physics {
@@ -16,12 +16,6 @@ struct AnchoredContactOptions {
   double friction = 0.3;    ///< Coulomb coefficient [-]; >= 0
   double gap = 0.003;       ///< distance at which the body begins to push [m]; > 0
   double stiffness = 1000;  ///< of that push beyond the soft layer [N/m]; > 0
-};
-
-/// Where a rigid body stands: x -> rotation x + translation takes it from its own frame into the world.
-struct BodyPlace {
-  Mat3 rotation = Mat3::Identity();
-  Vec3 translation = Vec3::Zero();  ///< [m]
 };
 
 /// Contact with a body as a potential, for callers that look for rest. A particle nearer than the gap is

@@ -13,14 +13,9 @@ RigidContact::RigidContact(const Collider& body, const RigidMotion& motion, cons
   begin_step(0, 0);
 }
 
-RigidContact::Frame RigidContact::frame_at(double time) const {
-  const Pose now = pose(motion_, time);
-  return {now.rotation.toRotationMatrix(), now.translation};
-}
-
 void RigidContact::begin_step(double from, double to) {
-  from_ = frame_at(from);
-  to_ = frame_at(to);
+  from_ = BodyPlace(pose(motion_, from));
+  to_ = BodyPlace(pose(motion_, to));
 }
 
 void RigidContact::respond(int i, const Vec3& before, double dt, Vec3& x, Vec3& v, ContactCounts& counts) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "physics/body/moving_body.h"
+#include "physics/body/posed_collider.h"
 #include "physics/contact/contact.h"
 
 namespace furrow::physics {
@@ -18,16 +18,8 @@ class RigidContact : public BodyContact {
   void respond(int i, const Vec3& before, double dt, Vec3& x, Vec3& v, ContactCounts& counts) override;
 
  private:
-  struct Frame {
-    Mat3 rotation;
-    Vec3 translation;
-    Vec3 to_body(const Vec3& x) const { return rotation.transpose() * (x - translation); }
-    Vec3 to_world(const Vec3& x) const { return rotation * x + translation; }
-  };
-  Frame frame_at(double time) const;
-
   const RigidMotion& motion_;
-  Frame from_, to_;
+  BodyPlace from_, to_;  ///< at the step's ends
 };
 
 }  // namespace furrow::physics

@@ -219,8 +219,7 @@ constexpr bool is_unconditionally_stable(Integrator i) { return i == Integrator:
 constexpr double default_dt(Integrator i) { return i == Integrator::xpbd ? 1.0 / 1200 : 1.0 / 60; }
 
 struct XpbdOptions {
-  int iterations = 10;   ///< sweeps over all springs a step, at most; >= 1
-  double tolerance = 0;  ///< sooner when a sweep changes no spring's length by more [m]; >= 0
+  int iterations = 10;  ///< sweeps over all springs a step; >= 1
 };
 
 struct ImplicitOptions {

@@ -23,9 +23,7 @@ StepContact::StepContact(const BodyAround& body, double stiffness, std::size_t p
 }
 
 BodyPlace StepContact::place_at(double time) const {
-  if (!body_.motion) return {};
-  const Pose now = pose(*body_.motion, time);
-  return {now.rotation.toRotationMatrix(), now.translation};
+  return body_.motion ? BodyPlace(pose(*body_.motion, time)) : BodyPlace();
 }
 
 const Collider& StepContact::collider() const { return asked(body_); }
@@ -42,7 +40,7 @@ std::vector<Vec3> StepContact::move_body(double from, double to, std::span<const
   } else if (body_.motion) {
     const BodyPlace before = place_at(from);
     place_body(place_at(to));
-    for (Vec3& p : carried) p = before.rotation.transpose() * (p - before.translation);
+    for (Vec3& p : carried) p = before.to_body(p);
   }
   return carried;
 }
@@ -50,7 +48,7 @@ std::vector<Vec3> StepContact::move_body(double from, double to, std::span<const
 std::vector<Vec3> StepContact::ways(std::span<const Vec3> carried, std::span<const Vec3> x) const {
   std::vector<Vec3> ways(carried.begin(), carried.end());
   for (std::size_t i = 0; i < ways.size(); ++i) {
-    if (place()) ways[i] = place()->rotation * carried[i] + place()->translation;
+    if (place()) ways[i] = place()->to_world(carried[i]);
     ways[i] -= x[i];
   }
   return ways;
@@ -69,9 +67,9 @@ StepContact::Beside StepContact::beside(std::span<const Vec3> carried, std::vect
   const BodyPlace sooner = place_at(to - little), later = place_at(to + little), before = place_at(from - h);
   const Mat3 turn = now.rotation * place_at(from).rotation.transpose();
   for (std::size_t i = 0; i < x0.size(); ++i) {
-    const Vec3 on_body = carried[i], at_end = now.rotation.transpose() * (x1[i] - now.translation);
-    const Vec3 slip_before = v0[i] - (x0[i] - (before.rotation * on_body + before.translation)) / h;
-    const Vec3 slip_now = (x1[i] - (now.rotation * on_body + now.translation)) / h;
+    const Vec3 on_body = carried[i], at_end = now.to_body(x1[i]);
+    const Vec3 slip_before = v0[i] - (x0[i] - before.to_world(on_body)) / h;
+    const Vec3 slip_now = (x1[i] - now.to_world(on_body)) / h;
     result.slip[i] = 0.5 * (slip_now + turn * slip_before);
     result.surface[i] =
         ((later.rotation - sooner.rotation) * at_end + later.translation - sooner.translation) / (2 * little);
@@ -117,7 +115,7 @@ void StepContact::keep_out(std::span<const Vec3> start, std::span<const double> 
       const Vec3 to = in_frame(x[i]);
       const Vec3 end_of_way = slid(start[i], to);
       if (end_of_way == to) continue;
-      x[i] = place() ? Vec3(place()->rotation * end_of_way + place()->translation) : end_of_way;
+      x[i] = place() ? place()->to_world(end_of_way) : end_of_way;
     }
   });
 }

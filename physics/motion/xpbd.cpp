@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 #include <stdexcept>
 #include <string>
 
@@ -38,8 +37,7 @@ FURROW_INLINE void push(const Sweep& s, int i, double p, const Lanes& d) {
 
 /// Solves spring i with p its impulse so far, w the sum of its ends' inverse masses, C = l - L:
 ///   dp = -(h k C + p + h c (v_b - v_a) . n) / (1 + h (h k + c) w).
-/// Returns the change of the spring's length, h w |dp|.
-FURROW_INLINE double solve_one(const Sweep& s, int i) {
+FURROW_INLINE void solve_one(const Sweep& s, int i) {
   const double h = s.h;
   Lanes hh;
   spread(h, hh);
@@ -51,16 +49,14 @@ FURROW_INLINE double solve_one(const Sweep& s, int i) {
                     (1 + h * ((h * s.k[i] + s.c[i]) * s.inv_sum[i]));
   s.impulse[i] = p + dp;
   push(s, i, dp * inv, d);
-  return std::abs(h * (s.inv_sum[i] * dp));
 }
 
-/// Springs of one group share no particle, so four go at once; returns the largest change.
+/// Springs of one group share no particle, so four go at once.
 FURROW_VECTOR_CLONES
-double solve_group(const Sweep* sweep, int begin, int end) {
+void solve_group(const Sweep* sweep, int begin, int end) {
   const Sweep s = *sweep;
   Lanes hh;
   spread(s.h, hh);
-  double most = 0;
   int i = begin;
   for (; i + 4 <= end; i += 4) {
     Lanes d[4], l2, dv;
@@ -78,23 +74,17 @@ double solve_group(const Sweep* sweep, int begin, int end) {
     const Lanes dp =
         -(hh * (k * root - at(s.kL + i)) + p + hh * (c * (dv * inv))) / (one + hh * ((hh * k + c) * w));
     *(UnalignedLanes*)(s.impulse + i) = p + dp;
-    const Lanes along = dp * inv, change = hh * (w * dp);
-    for (int j = 0; j < 4; ++j) {
-      push(s, i + j, along[j], d[j]);
-      most = std::max(most, std::abs(change[j]));
-    }
+    const Lanes along = dp * inv;
+    for (int j = 0; j < 4; ++j) push(s, i + j, along[j], d[j]);
   }
-  for (; i < end; ++i) most = std::max(most, solve_one(s, i));
-  return most;
+  for (; i < end; ++i) solve_one(s, i);
 }
 
-double solve_groups(const Sweep& sweep, const std::vector<int>& begin, int first, int last, bool forward) {
-  double most = 0;
+void solve_groups(const Sweep& sweep, const std::vector<int>& begin, int first, int last, bool forward) {
   for (int n = first; n < last; ++n) {
     const auto g = std::size_t(forward ? n : first + last - 1 - n);
-    most = std::max(most, solve_group(&sweep, begin[g], begin[g + 1]));
+    solve_group(&sweep, begin[g], begin[g + 1]);
   }
-  return most;
 }
 
 void require_springs_only(const Cloth& shell) {
@@ -116,9 +106,6 @@ Xpbd::Xpbd(Motion& motion, const XpbdOptions& options) : motion_(motion), option
   if (options.iterations < 1) {
     throw std::invalid_argument("xpbd: iterations = " + std::to_string(options.iterations) + " is not >= 1");
   }
-  if (!(options.tolerance >= 0)) {
-    throw std::invalid_argument("xpbd: tolerance = " + std::to_string(options.tolerance) + " is not >= 0");
-  }
   const PackedCloth& cloth = motion.cloth();
   require_springs_only(cloth.shell);
   dashpots_ = dashpots(cloth, motion.loads().spring_damping);
@@ -128,7 +115,7 @@ Xpbd::Xpbd(Motion& motion, const XpbdOptions& options) : motion_(motion), option
 }
 
 /// The springs of blocks at once, what lies between them after (or, in reverse, before) them.
-double Xpbd::sweep(double dt, bool forward) {
+void Xpbd::sweep(double dt, bool forward) {
   const WorkClock::Within solve(motion_.clock(), WorkPart::solve);
   PackedCloth& cloth = motion_.cloth();
   const Sweep sweep{cloth.x.data(),
@@ -143,23 +130,13 @@ double Xpbd::sweep(double dt, bool forward) {
                     impulse_.data(),
                     dt};
   const std::vector<int>&group = cloth.sweep.group_begin, &block = cloth.sweep.block_begin;
-  double most = 0;
-  const auto solve_between = [&] {
-    most = std::max(most, solve_groups(sweep, group, block.back(), cloth.sweep.groups(), forward));
-  };
+  const auto solve_between = [&] { solve_groups(sweep, group, block.back(), cloth.sweep.groups(), forward); };
   if (!forward) solve_between();
-  std::mutex mutex;
   motion_.pool().run(cloth.sweep.blocks(), [&](int begin, int end) {
-    double mine = 0;
-    for (int i = begin; i < end; ++i) {
-      mine = std::max(mine,
-                      solve_groups(sweep, group, block[std::size_t(i)], block[std::size_t(i) + 1], forward));
-    }
-    const std::lock_guard lock(mutex);
-    most = std::max(most, mine);
+    for (int i = begin; i < end; ++i)
+      solve_groups(sweep, group, block[std::size_t(i)], block[std::size_t(i) + 1], forward);
   });
   if (forward) solve_between();
-  return most;
 }
 
 void Xpbd::step(double dt) {
@@ -169,7 +146,7 @@ void Xpbd::step(double dt) {
   impulse_.assign(dashpots_.size(), 0.0);
   for (int i = 0; i < options_.iterations; ++i) {
     ++motion_.work().iterations;
-    if (sweep(dt, i % 2 == 0) <= options_.tolerance) break;
+    sweep(dt, i % 2 == 0);
   }
   motion_.drift(dt);
   ++motion_.work().steps;

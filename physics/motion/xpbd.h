@@ -27,7 +27,7 @@ class Xpbd : public Stepper {
   void step(double dt) override;
 
  private:
-  double sweep(double dt, bool forward);
+  void sweep(double dt, bool forward);
 
   Motion& motion_;
   XpbdOptions options_;

@@ -38,13 +38,6 @@ double twist_of_bias(double warp, double weft, double bias, double poisson) {
   return 1 / inverse;
 }
 
-double strip_rigidity(const PlateRigidity& p, double angle) {
-  check(p);
-  if (is_nothing(p)) return 0;
-  const double c2 = std::pow(std::cos(angle), 2), s2 = std::pow(std::sin(angle), 2);
-  return 1 / (c2 * c2 / p.warp + s2 * s2 / p.weft + (1 / p.twist - 2 * p.poisson / p.warp) * c2 * s2);
-}
-
 Eigen::Matrix3d plate_matrix(const PlateRigidity& p, double angle) {
   check(p);
   if (is_nothing(p)) return Eigen::Matrix3d::Zero();

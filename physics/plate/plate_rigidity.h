@@ -17,9 +17,6 @@ PlateRigidity isotropic_plate(double rigidity, double poisson = 0);
 /// B_t [N m] of a cloth whose strips cut at 45 degrees have the rigidity `bias` [N m]:
 /// 1 / (4 / B45 - 1 / B1 - 1 / B2 + 2 nu12 / B1). Throws std::invalid_argument if there is none > 0.
 double twist_of_bias(double warp, double weft, double bias, double poisson = 0);
-/// B of a strip cut at `angle` [rad] to the warp [N m]:
-/// 1 / B = c^4 / B1 + s^4 / B2 + (1 / B_t - 2 nu12 / B1) c^2 s^2.
-double strip_rigidity(const PlateRigidity& plate, double angle);
 
 /// D [N m], the energy of an area being 1/2 k^T D k with the curvatures k = (K11, K22, 2 K12) [1/m] in axes
 /// that the warp leads by `angle` [rad]. Throws std::invalid_argument if D is not positive definite and not

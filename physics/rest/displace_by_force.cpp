@@ -291,22 +291,6 @@ class Displacer {
 
 }  // namespace
 
-const char* name_of(DisplaceOutcome outcome) {
-  switch (outcome) {
-    case DisplaceOutcome::converged:
-      return "converged";
-    case DisplaceOutcome::limit_cycle:
-      return "limit cycle";
-    case DisplaceOutcome::unfinished:
-      return "unfinished";
-    case DisplaceOutcome::stopped:
-      return "stopped";
-    case DisplaceOutcome::diverged:
-      return "diverged";
-  }
-  return "";
-}
-
 double displacement_rate(const Cloth& cloth, const Vec3& gravity, double longest) {
   constexpr const char* me = "displacement_rate";
   for (const double g : gravity) require(me, "gravity", g, true, "finite");

@@ -143,8 +143,6 @@ enum class DisplaceOutcome {
   stopped,      ///< by the observer
   diverged      ///< not finite, or a particle farther from the start than 100 times the cloth's extent there
 };
-/// "limit cycle" and so on.
-const char* name_of(DisplaceOutcome outcome);
 
 struct DisplaceReport {
   DisplaceOutcome outcome = DisplaceOutcome::unfinished;

@@ -122,7 +122,6 @@ RestCase in_small_units(RestCase c) {
   o.seconds *= time, o.dt_max *= time, o.gravity *= length / (time * time), o.air_drag /= time;
   if (o.dt) *o.dt *= time;
   o.speed_limit *= length / time;
-  o.xpbd.tolerance *= length;
   c.metre *= length, c.second *= time;
   return c;
 }

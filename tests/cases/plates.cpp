@@ -94,4 +94,9 @@ ClampedStrip clamped_strip(SheetKind kind, double length, double width, int colu
   return strip;
 }
 
+double strip_rigidity(const physics::PlateRigidity& p, double angle) {
+  const double c2 = std::pow(std::cos(angle), 2), s2 = std::pow(std::sin(angle), 2);
+  return 1 / (c2 * c2 / p.warp + s2 * s2 / p.weft + (1 / p.twist - 2 * p.poisson / p.warp) * c2 * s2);
+}
+
 }  // namespace furrow::cases

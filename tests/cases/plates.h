@@ -21,6 +21,10 @@ physics::PlateParts plate_of(const physics::Cloth& cloth, const physics::PlateRi
 /// Puts it into the cloth's energies, hinges that stay plain among its hinges.
 void add_plate(physics::Cloth& cloth, const physics::PlateRigidity& rigidity, double warp_angle = 0);
 
+/// B of a strip cut at `angle` [rad] to the warp [N m]:
+/// 1 / B = c^4 / B1 + s^4 / B2 + (1 / B_t - 2 nu12 / B1) c^2 s^2.
+double strip_rigidity(const physics::PlateRigidity& plate, double angle);
+
 /// Triangles none of whose corners is within `rings` edges of the border.
 std::vector<char> core_of(const physics::Cloth& cloth, int rings);
 /// Of each particle, how many edges from the border.

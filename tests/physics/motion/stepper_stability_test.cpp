@@ -85,8 +85,7 @@ TEST_CASE("stepper: each integrator keeps the momentum of a free cloth, with spr
 TEST_CASE("stepper: XPBD with many sweeps is an implicit step but for its turning directions") {
   const Cloth cloth = swinging_sheet();
   const Particles implicit = after(cloth, {}, solved(Integrator::implicit), 1e-3, 100);
-  const Particles sweeps =
-      after(cloth, {}, {Integrator::xpbd, {.iterations = 5000, .tolerance = 1e-14}}, 1e-3, 100);
+  const Particles sweeps = after(cloth, {}, {Integrator::xpbd, {.iterations = 5000}}, 1e-3, 100);
   const Particles exact = after(cloth, {}, {Integrator::leapfrog}, 1e-5, 10000);
   CHECK(distance(implicit, exact) > 3e-3);
   CHECK(distance(implicit, sweeps) < 0.1 * distance(implicit, exact));
@@ -125,8 +124,6 @@ TEST_CASE("stepper: steppers refuse what is out of range") {
     CHECK_THROWS_WITH(furrow::cases::make_stepper(motion, {integrator})->step(0), Catch::Contains("dt = 0"));
   CHECK_THROWS_WITH(make_stepper(motion, {Integrator::xpbd, {.iterations = 0}}),
                     Catch::Contains("iterations = 0"));
-  CHECK_THROWS_WITH(make_stepper(motion, {Integrator::xpbd, {.tolerance = -1}}),
-                    Catch::Contains("tolerance = -1"));
   CHECK_THROWS_WITH(make_stepper(motion, {.integrator = Integrator::implicit, .implicit = {.tolerance = 0}}),
                     Catch::Contains("tolerance = 0"));
 }

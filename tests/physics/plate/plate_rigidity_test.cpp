@@ -6,7 +6,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/cases/plates.h"
+
 using namespace furrow::physics;
+using furrow::cases::strip_rigidity;
 
 namespace {
 

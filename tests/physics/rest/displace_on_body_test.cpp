@@ -60,7 +60,7 @@ TEST_CASE("displace_by_force: without the cap a stretched sheet breaks down, wit
   options.max_passes = 40000;
   Cloth capped = cloth;
   const DisplaceReport report = displace_by_force(capped, &ball, options);
-  CAPTURE(name_of(report.outcome), report.passes, report.residual, report.capped, report.touching);
+  CAPTURE(int(report.outcome), report.passes, report.residual, report.capped, report.touching);
   CHECK(report.outcome == DisplaceOutcome::converged);
   CHECK(report.capped > 0);
   CHECK(report.touching > 3);
@@ -85,7 +85,7 @@ TEST_CASE("displace_by_force: the cap keeps a membrane bounded at a rate that is
   CHECK(broken.passes < options.max_passes);
   options.cap = true;
   const DisplaceReport report = displace_by_force(cloth, &ball, options);
-  CAPTURE(name_of(report.outcome), report.residual);
+  CAPTURE(int(report.outcome), report.residual);
   CHECK(report.outcome != DisplaceOutcome::converged);
   CHECK(report.outcome != DisplaceOutcome::diverged);
   CHECK(report.residual > 1);
