@@ -42,13 +42,14 @@ void SceneFlags::add_to(CLI::App& sub, unsigned subcommand) {
     if (!has(s) || s.kind == io::Kind::yes_no || s.table() == "pins") continue;
     Given& g = given_.emplace_back(Given{&s, s.long_flag()});
     begin_group_of(sub, s, subcommand);
-    g.option = sub.add_option(s.flag, g.text, s.help)->type_name(s.is_text() ? "TEXT" : "NUMBER");
+    g.option = sub.add_option(s.flag, g.text, io::described(s, &io::Setting::long_flag))
+                   ->type_name(s.is_text() ? "TEXT" : "NUMBER");
   }
   for (const io::Setting& s : io::scene_settings()) {
     if (!has(s) || s.kind != io::Kind::yes_no) continue;
     Given& g = given_.emplace_back(Given{&s, s.long_flag()});
     begin_group_of(sub, s, subcommand);
-    g.option = sub.add_flag(s.flag, g.is_on, s.help);
+    g.option = sub.add_flag(s.flag, g.is_on, io::described(s, &io::Setting::long_flag));
   }
   add_pin_flags(sub, subcommand);
   if (subcommand & io::used_by::wrinkle) return;
@@ -62,7 +63,7 @@ void SceneFlags::add_pin_flags(CLI::App& sub, unsigned subcommand) {
   const auto add = [&](const char* path, auto& values) {
     const io::Setting& s = *io::find_setting(path);
     begin_group_of(sub, s, subcommand);
-    return sub.add_option(s.flag, values, s.help);
+    return sub.add_option(s.flag, values, io::described(s, &io::Setting::long_flag));
   };
   add("pins.box", pin_boxes_)->allow_extra_args(false);
   add("pins.loop", pin_loops_)->allow_extra_args(false);

@@ -61,13 +61,6 @@ std::string type_of(const io::Setting& s) {
   return "Any";
 }
 
-/// "Coulomb friction with the body; default 0.3 [-]".
-std::string help_of(const io::Setting& s) {
-  std::string text = s.help;
-  std::erase(text, '`');
-  return text;
-}
-
 /// Sets every value of a dict by its path; tables in tables are walked, lists are values.
 void set_all(const Json& table, const std::string& above, const std::string& where,
              io::TomlDocument& document) {
@@ -206,7 +199,7 @@ std::vector<KeywordWords> common_keywords() {
 std::vector<KeywordWords> setting_keywords(unsigned subcommand) {
   std::vector<KeywordWords> words;
   for (const io::Setting& s : io::scene_settings())
-    if (has_flag(s, subcommand)) words.push_back({keyword_of(s), type_of(s), help_of(s)});
+    if (has_flag(s, subcommand)) words.push_back({keyword_of(s), type_of(s), io::described(s, keyword_of)});
   words.push_back({"settings", "Mapping[str, Any]", "any settings of a scene: {\"material.bending\": 1}"});
   return words;
 }

@@ -36,7 +36,8 @@ std::vector<std::string> choices_of(const CLI::Option& option) {
   if (!words.empty()) return words;
   const std::string help = option.get_description();
   for (const io::Setting& s : io::scene_settings())
-    if (s.kind == io::Kind::choice && !s.flag.empty() && option.check_name(s.long_flag()) && help == s.help)
+    if (s.kind == io::Kind::choice && !s.flag.empty() && option.check_name(s.long_flag()) &&
+        help == io::described(s, &io::Setting::long_flag))
       return quoted_words(s.range);
   return words;
 }

@@ -11,42 +11,25 @@ namespace {
 using physics::Gust, physics::Keyframe, physics::RigidMotion, physics::Spin;
 
 const Row<Spin> spin_rows[] = {
-    {{.path = "spin.centre", .what = "a point of the axis"},
-     vector(
-         "m", [](auto& s) -> auto& { return s.centre; })},
-    {{.path = "spin.axis", .what = "of any length but 0"},
-     vector(
-         "", [](auto& s) -> auto& { return s.axis; })},
+    {{.path = "spin.centre", .what = "a point of the axis"}, vector(FIELD(centre), "m")},
+    {{.path = "spin.axis", .what = "of any length but 0"}, vector(FIELD(axis), "")},
     {{.path = "spin.rate", .what = "counter-clockwise, seen against the axis"},
-     number(
-         any("rad/s"), [](auto& s) -> auto& { return s.rate; })},
-    {{.path = "spin.start", .what = "when it begins"},
-     number(
-         not_negative("s"), [](auto& s) -> auto& { return s.start; })},
-    {{.path = "spin.ramp", .what = "how long it takes to its rate"},
-     number(
-         not_negative("s"), [](auto& s) -> auto& { return s.ramp; })},
+     number(FIELD(rate), any("rad/s"))},
+    {{.path = "spin.start", .what = "when it begins"}, number(FIELD(start), not_negative("s"))},
+    {{.path = "spin.ramp", .what = "how long it takes to its rate"}, number(FIELD(ramp), not_negative("s"))},
 };
 
 const Row<Keyframe> keyframe_rows[] = {
     {{.path = "keyframes.time", .what = "later than that of the keyframe before"},
-     number(
-         not_negative("s"), [](auto& k) -> auto& { return k.time; })},
-    {{.path = "keyframes.translation", .what = "from its place at first"},
-     vector(
-         "m", [](auto& k) -> auto& { return k.translation; })},
-    {{.path = "keyframes.rotation", .what = "axis times angle"},
-     vector(
-         "rad", [](auto& k) -> auto& { return k.rotation; })},
+     number(FIELD(time), not_negative("s"))},
+    {{.path = "keyframes.translation", .what = "from its place at first"}, vector(FIELD(translation), "m")},
+    {{.path = "keyframes.rotation", .what = "axis times angle"}, vector(FIELD(rotation), "rad")},
 };
 
 const Row<Gust> gust_rows[] = {
     {{.path = "gusts.time", .what = "later than that of the gust before"},
-     number(
-         not_negative("s"), [](auto& g) -> auto& { return g.time; })},
-    {{.path = "gusts.factor", .what = "of the wind"},
-     number(
-         any(), [](auto& g) -> auto& { return g.factor; })},
+     number(FIELD(time), not_negative("s"))},
+    {{.path = "gusts.factor", .what = "of the wind"}, number(FIELD(factor), any())},
 };
 
 /// The elements of the list `key`, by time.
@@ -63,9 +46,7 @@ void read_timed(SettingsTable& parent, const char* key, std::span<const Row<T>> 
 }
 
 const Row<RigidMotion> motion_rows[] = {
-    {{.path = "motion.pivot", .what = "what keyframes turn it about"},
-     vector(
-         "m", [](auto& m) -> auto& { return m.pivot; })},
+    {{.path = "motion.pivot", .what = "what keyframes turn it about"}, vector(FIELD(pivot), "m")},
     {{.path = "motion.keyframes", .what = "`[{time, translation, rotation}, …]`"},
      own(Kind::table, "tables",
          [](SettingsTable& table, const char* key, RigidMotion& m) {
@@ -74,7 +55,7 @@ const Row<RigidMotion> motion_rows[] = {
          })},
     {{.path = "motion.ends",
       .what = "speed at the first and the last keyframe: 0, or that of the keyframes beside it"},
-     choice<physics::EndSpeeds>([](auto& m) -> auto& { return m.ends; },
+     choice<physics::EndSpeeds>(FIELD(ends),
                                 {{"rest", physics::EndSpeeds::rest}, {"free", physics::EndSpeeds::free}})},
     {{.path = "motion.spin", .what = "`{centre, axis, rate, start, ramp}`"},
      own(Kind::table, "table",

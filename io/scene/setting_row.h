@@ -8,8 +8,11 @@
 #include "io/scene/settings_schema.h"
 #include "io/scene/settings_table.h"
 
-/// How a row of the schema reaches the field of a struct that it sets. `At` is a function that returns the
-/// field: [](auto& s) -> auto& { return s.material.poisson; }.
+/// How a row of the schema reaches the field of a struct that it sets: FIELD(material.poisson) is a function
+/// `At` that returns it.
+#define FIELD(path) \
+  [](auto& target) -> auto& { return target.path; }
+
 namespace furrow::io {
 
 inline std::string text_of(double value) { return (std::ostringstream() << value).str(); }
@@ -63,7 +66,7 @@ struct Plain {
 };
 
 template <class At>
-Plain<At> plain(Kind kind, const std::string& words, At at) {
+Plain<At> plain(At at, Kind kind, const std::string& words) {
   return {kind, words, at};
 }
 template <class At>
@@ -75,7 +78,7 @@ Plain<At> path(At at) {
   return {Kind::path, "file", at};
 }
 template <class At>
-Plain<At> vector(const std::string& unit, At at) {
+Plain<At> vector(At at, const std::string& unit) {
   return {Kind::vector, "[x, y, z]" + (unit.empty() ? "" : " [" + unit + "]"), at};
 }
 
@@ -130,15 +133,15 @@ struct Own {
 };
 
 template <class At>
-Number<At> number(const Limits& limits, At at) {
+Number<At> number(At at, const Limits& limits) {
   return {at, limits};
 }
 template <class At>
-Whole<At> whole(int least, int most, At at) {
+Whole<At> whole(At at, int least, int most) {
   return {at, least, most};
 }
 template <class At, class Value>
-Switch<At, Value> yes_no(Value off, Value on, At at) {
+Switch<At, Value> yes_no(At at, Value off, Value on) {
   return {at, off, on};
 }
 template <class Read>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,9 +26,8 @@ struct Setting {
   /// "material.friction"; "lines.time": of each in the list; "spin.rate": of each such table inside others.
   std::string path = {};
   std::string flag = {};                ///< as "-o,--output"; "": --set alone reaches it
-  std::string help = {};                ///< of the flag; "": made of the next two
   unsigned shown_in = used_by::nobody;  ///< whose --help shows it; elsewhere --help-all alone does
-  std::string what = {};                ///< in Markdown, for docs/scenes.md
+  std::string what = {};                ///< in Markdown; other settings by their keys, in backticks
   std::string usual = {};               ///< the default in words; "": the value that a new Scene has
   /// Who has a use for it. `drape` warns of what it has none for, unless it refuses it with words of its own.
   unsigned used = used_by::all;
@@ -51,6 +51,9 @@ struct SettingTable {
 const std::vector<Setting>& scene_settings();
 /// The tables that hold them, as docs/scenes.md lists them; "" first: the root.
 const std::vector<SettingTable>& setting_tables();
+/// What a setting is, its unit and its default, for help: without links, other settings by the names that
+/// `name` gives.
+std::string described(const Setting& setting, const std::function<std::string(const Setting&)>& name);
 /// The setting with this path; null: there is none.
 const Setting* find_setting(std::string_view path);
 

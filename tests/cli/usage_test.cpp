@@ -57,8 +57,9 @@ TEST_CASE("usage: the help of each subcommand has the flags that the schema of s
     const std::string help = run_furrow(std::string(sub) + " --help-all").out;
     for (const furrow::io::Setting& s : furrow::io::scene_settings()) {
       if (s.flag.empty() || (bit == used_by::wrinkle && s.flag == "--density")) continue;  // its own option
-      INFO(sub << " " << s.flag << ": " << s.help);
-      const bool is_there = help.find(s.help) != std::string::npos;
+      const std::string words = furrow::io::described(s, &furrow::io::Setting::long_flag);
+      INFO(sub << " " << s.flag << ": " << words);
+      const bool is_there = help.find(words) != std::string::npos;
       const bool is_common = s.flag_in == used_by::nobody;  // with words of its own
       CHECK((is_common || is_there == ((s.flag_in & bit) != 0)));
       if (is_common || is_there) CHECK(help.find(s.long_flag()) != std::string::npos);
