@@ -22,12 +22,12 @@ struct Fabric {
   double shear;      ///< shear modulus times thickness [N/m]; for the record: an isotropic sheet has its own
   double rigidity;   ///< B, mean over the directions at the lowest curvature [N m]
   double thickness;  ///< [m]
-  double damping;    ///< share of critical damping of each edge [-]
   double friction;   ///< Coulomb's with skin [-]
   const char* source;   ///< of what was measured
   const char* assumed;  ///< which of the numbers are ours
   FabricThreads threads = {};
   double bending_friction = 0;  ///< half of Kawabata's 2HB, measured [N]; 0: not measured
+  double damping = 0.02;        ///< share of critical damping of each edge [-]
 };
 
 std::span<const Fabric> fabrics();
