@@ -33,210 +33,199 @@ constexpr const char* prefix = "furrow state ";
 bool is_state(const std::string& comment) { return comment.rfind(prefix, 0) == 0; }
 
 /// JSON knows neither infinity nor NaN: null is infinity (a limit without springs, a fade that never ends).
-Json number(double x) { return std::isinf(x) ? Json(nullptr) : Json(x); }
-double number(const Json& json) {
-  return json.is_null() ? std::numeric_limits<double>::infinity() : json.get<double>();
+constexpr double null_number = std::numeric_limits<double>::infinity();
+
+// How a value stands in JSON: put() and get() of each type that is no number, text or list of such.
+
+template <class T>
+void put(Json& json, const T& value) {
+  json = value;
+}
+template <class T>
+void get(const Json& json, T& value) {
+  value = json.get<T>();
+}
+void get(const Json& json, double& value) { value = json.is_null() ? null_number : json.get<double>(); }
+
+void put(Json& json, const std::vector<Vec3>& points) {
+  json = Json::array();
+  for (const Vec3& p : points)
+    for (int k = 0; k < 3; ++k) json.push_back(p[k]);
+}
+void get(const Json& json, std::vector<Vec3>& points) {
+  const auto x = json.get<std::vector<double>>();
+  if (x.size() % 3 != 0) throw std::invalid_argument("a home of a pin is cut short");
+  for (std::size_t i = 0; i < x.size(); i += 3) points.emplace_back(x[i], x[i + 1], x[i + 2]);
 }
 
-Json to_json(const physics::EnergyBalance& e) {
-  return {e.seconds, e.kinetic, e.elastic,         e.weight, e.by_air,
+void put(Json& json, const physics::EnergyBalance& e) {
+  json = {e.seconds, e.kinetic, e.elastic,         e.weight, e.by_air,
           e.by_body, e.by_pins, e.by_compensation, e.to_air, e.to_contact};
 }
-
-physics::EnergyBalance balance_of(const Json& j) {
-  if (j.empty()) return {};
-  const auto e = j.get<std::array<double, 10>>();
-  return {e[0], e[1], e[2], e[3], e[4], e[5], e[6], e[7], e[8], e[9]};
+void get(const Json& json, physics::EnergyBalance& balance) {
+  const auto e = json.get<std::array<double, 10>>();
+  balance = {e[0], e[1], e[2], e[3], e[4], e[5], e[6], e[7], e[8], e[9]};
 }
 
-Json to_json(const physics::LongestEdge& e) { return {e.strain, e.time, e.at.x(), e.at.y(), e.at.z()}; }
-
-physics::LongestEdge longest_edge_of(const Json& j) {
-  if (j.empty()) return {};
-  const auto e = j.get<std::array<double, 5>>();
-  return {e[0], e[1], {e[2], e[3], e[4]}};
+void put(Json& json, const physics::LongestEdge& e) {
+  json = {e.strain, e.time, e.at.x(), e.at.y(), e.at.z()};
 }
+void get(const Json& json, physics::LongestEdge& edge) {
+  const auto e = json.get<std::array<double, 5>>();
+  edge = {e[0], e[1], {e[2], e[3], e[4]}};
+}
+
+void put(Json& json, const std::vector<physics::PairMemory>& pairs) {
+  json = Json::array();
+  for (const auto& p : pairs) json.push_back({int(p.edges), p.vertices, p.range, p.target});
+}
+void get(const Json& json, std::vector<physics::PairMemory>& pairs) {
+  for (const Json& p : json) pairs.push_back({p.at(0).get<int>() != 0, p.at(1), p.at(2), p.at(3)});
+}
+
+void put(Json& json, const std::vector<physics::PairFrictionMemory>& friction) {
+  json = Json::array();
+  for (const auto& f : friction)
+    json.push_back({int(f.edges), f.vertices, f.tether.x(), f.tether.y(), f.tether.z(), int(f.slides)});
+}
+void get(const Json& json, std::vector<physics::PairFrictionMemory>& friction) {
+  for (const Json& f : json)
+    friction.push_back(
+        {f.at(0).get<int>() != 0, f.at(1), Vec3(f.at(2), f.at(3), f.at(4)), f.at(5).get<int>() != 0});
+}
+
+void put(Json& json, const std::optional<Integrator>& integrator) {
+  json = integrator == Integrator::implicit ? "implicit" : "leapfrog";
+}
+void get(const Json& json, std::optional<Integrator>& integrator) {
+  if (json != "implicit" && json != "leapfrog")
+    throw std::invalid_argument("integrator is neither implicit nor leapfrog");
+  integrator = json == "implicit" ? Integrator::implicit : Integrator::leapfrog;
+}
+
+void put(Json& json, const physics::SimulateTotals& totals);
+void get(const Json& json, physics::SimulateTotals& totals);
+void put(Json& json, const physics::SelfContactMemory& self);
+void get(const Json& json, physics::SelfContactMemory& self);
+
+/// Puts the fields of a list into JSON.
+struct FieldWriter {
+  Json& json;
+  template <class T>
+  void operator()(const char* key, const T& value) const {
+    put(json[key], value);
+  }
+  /// A field that stands there only where it says something.
+  template <class T>
+  void operator()(const char* key, const T& value, bool is_set) const {
+    if (is_set) put(json[key], value);
+  }
+};
+
+/// Gets the same fields from JSON.
+struct FieldReader {
+  const Json& json;
+  template <class T>
+  void operator()(const char* key, T& value) const {
+    get(json.at(key), value);
+  }
+  template <class T>
+  void operator()(const char* key, T& value, bool) const {
+    if (json.contains(key)) get(json.at(key), value);
+  }
+};
 
 /// Without the clock times: the same simulation gives the same bytes.
-Json to_json(const physics::SimulateTotals& t) {
-  return {{"force_evaluations", t.force_evaluations},
-          {"spring_evaluations", t.spring_evaluations},
-          {"triangle_evaluations", t.triangle_evaluations},
-          {"hinge_evaluations", t.hinge_evaluations},
-          {"linear_solves", t.linear_solves},
-          {"factorisations", t.factorisations},
-          {"iterations", t.iterations},
-          {"open_steps", t.open_steps},
-          {"energy", to_json(t.energy)},
-          {"longest_edge", to_json(t.longest_edge)},
-          {"collider_queries", t.collider_queries},
-          {"truncated_moves", t.truncated_moves},
-          {"cut_moves", t.cut_moves},
-          {"limit_estimates", t.limit_estimates},
-          {"frames_built", t.frames_built},
-          {"dt_smallest", number(t.dt_smallest)},
-          {"dt_limit_smallest", number(t.dt_limit_smallest)}};
+template <class Fields, class Totals>
+void list_fields(const Fields& field, Totals& t) {
+  field("force_evaluations", t.force_evaluations);
+  field("spring_evaluations", t.spring_evaluations);
+  field("triangle_evaluations", t.triangle_evaluations);
+  field("hinge_evaluations", t.hinge_evaluations);
+  field("linear_solves", t.linear_solves);
+  field("factorisations", t.factorisations);
+  field("iterations", t.iterations);
+  field("open_steps", t.open_steps);
+  field("energy", t.energy);
+  field("longest_edge", t.longest_edge);
+  field("collider_queries", t.collider_queries);
+  field("truncated_moves", t.truncated_moves);
+  field("cut_moves", t.cut_moves);
+  field("limit_estimates", t.limit_estimates);
+  field("frames_built", t.frames_built);
+  field("dt_smallest", t.dt_smallest);
+  field("dt_limit_smallest", t.dt_limit_smallest);
+}
+void put(Json& json, const physics::SimulateTotals& totals) { list_fields(FieldWriter{json}, totals); }
+void get(const Json& json, physics::SimulateTotals& totals) { list_fields(FieldReader{json}, totals); }
+
+template <class Fields, class Self>
+void list_self_contact(const Fields& field, Self& self) {
+  field("stiffness", self.stiffness);
+  field("crossed_at_start", self.crossed_at_start);
+  field("loose", self.loose);
+  field("coupled", self.coupled);
+  field("pairs", self.pairs);
+  field("friction", self.friction);
+  field("ordered_for", self.ordered_for);
+}
+void put(Json& json, const physics::SelfContactMemory& self) { list_self_contact(FieldWriter{json}, self); }
+void get(const Json& json, physics::SelfContactMemory& self) { list_self_contact(FieldReader{json}, self); }
+
+template <class Fields, class State>
+void list_state(const Fields& field, State& saved) {
+  auto& s = saved.simulation;
+  field("time", s.time);
+  field("step", s.step);
+  field("planned", s.planned);
+  field("end", s.end);
+  field("dt", s.dt);
+  field("dt_longest", s.dt_longest);
+  field("steps_left", s.steps_left);
+  field("estimated_at", s.estimated_at);
+  field("dt_limit", s.dt_limit);
+  field("strain_at_estimate", s.strain_at_estimate);
+  field("cloth", s.cloth);
+  field("body", saved.body);
+  field("body_travel", s.body_travel);
+  field("homes", s.homes);
+  field("force_jump_start", s.compensation.start);
+  field("force_jump_fade", s.compensation.time_constant);
+  field("totals", s.totals);
+  field("pins", saved.pins);
+  field("lines_drawn", saved.lines_drawn);
+  field("contact_gap", saved.contact_gap);
+  field("scene", saved.scene);
+  field("integrator", saved.integrator, saved.integrator.has_value());
+  field("field_tolerance", saved.field_tolerance, saved.field_tolerance > 0);
+  field("contact_stiffness", s.steps.contact_stiffness, s.steps.contact_stiffness > 0);
+  field("self_contact", s.steps.self, s.steps.self.stiffness > 0);
+  field("fresh", s.steps.fresh, !s.steps.fresh.empty());
 }
 
-physics::SimulateTotals totals_of(const Json& j) {
-  physics::SimulateTotals t;
-  t.force_evaluations = j.at("force_evaluations");
-  t.spring_evaluations = j.value("spring_evaluations", std::int64_t{0});  // absent in older files
-  t.triangle_evaluations = j.value("triangle_evaluations", std::int64_t{0});
-  t.hinge_evaluations = j.value("hinge_evaluations", std::int64_t{0});
-  t.linear_solves = j.value("linear_solves", std::int64_t{0});  // files of the first version have none
-  t.factorisations = j.value("factorisations", std::int64_t{0});
-  t.iterations = j.value("iterations", std::int64_t{0});
-  t.open_steps = j.value("open_steps", std::int64_t{0});
-  t.energy = balance_of(j.value("energy", Json::array()));
-  t.longest_edge = longest_edge_of(j.value("longest_edge", Json::array()));
-  t.collider_queries = j.at("collider_queries");
-  t.truncated_moves = j.at("truncated_moves");
-  t.cut_moves = j.value("cut_moves", std::int64_t{0});
-  t.limit_estimates = j.at("limit_estimates");
-  t.frames_built = j.at("frames_built");
-  t.dt_smallest = number(j.at("dt_smallest"));
-  t.dt_limit_smallest = number(j.at("dt_limit_smallest"));
-  return t;
-}
-
-Json to_json(const physics::SelfContactMemory& self) {
-  Json json{{"stiffness", self.stiffness},
-            {"crossed_at_start", self.crossed_at_start},
-            {"loose", self.loose},
-            {"coupled", self.coupled},
-            {"pairs", Json::array()},
-            {"friction", Json::array()},
-            {"ordered_for", self.ordered_for}};
-  for (const physics::PairMemory& p : self.pairs)
-    json["pairs"].push_back({int(p.edges), p.vertices, p.range, p.target});
-  for (const physics::PairFrictionMemory& f : self.friction)
-    json["friction"].push_back(
-        {int(f.edges), f.vertices, f.tether.x(), f.tether.y(), f.tether.z(), int(f.slides)});
-  return json;
-}
-
-physics::SelfContactMemory self_contact_of(const Json& json) {
-  physics::SelfContactMemory self;
-  self.stiffness = json.at("stiffness");
-  self.crossed_at_start = json.at("crossed_at_start");
-  self.loose = json.at("loose").get<std::vector<int>>();
-  self.coupled = json.at("coupled").get<std::vector<std::array<int, 2>>>();
-  for (const Json& p : json.at("pairs"))
-    self.pairs.push_back({p.at(0).get<int>() != 0, p.at(1), p.at(2), p.at(3)});
-  self.ordered_for = json.at("ordered_for").get<std::vector<std::array<int, 2>>>();
-  for (const Json& f : json.at("friction"))
-    self.friction.push_back(
-        {f.at(0).get<int>() != 0, f.at(1), Vec3(f.at(2), f.at(3), f.at(4)), f.at(5).get<int>() != 0});
-  return self;
-}
+constexpr int version = 3;
 
 Json to_json(const SavedState& saved) {
-  const SimulateState& s = saved.simulation;
-  Json json{{"version", 3},
-            {"time", s.time},
-            {"step", s.step},
-            {"planned", s.planned},
-            {"end", s.end},
-            {"dt", s.dt},
-            {"dt_longest", number(s.dt_longest)},
-            {"steps_left", s.steps_left},
-            {"estimated_at", s.estimated_at},
-            {"dt_limit", number(s.dt_limit)},
-            {"strain_at_estimate", s.strain_at_estimate},
-            {"cloth", s.cloth},
-            {"body", saved.body},
-            {"body_travel", s.body_travel},
-            {"homes", Json::array()},
-            {"force_jump_start", s.compensation.start},
-            {"force_jump_fade", number(s.compensation.time_constant)},
-            {"totals", to_json(s.totals)},
-            {"pins", saved.pins},
-            {"lines_drawn", saved.lines_drawn},
-            {"contact_gap", saved.contact_gap},
-            {"scene", saved.scene}};
-  if (saved.integrator)
-    json["integrator"] = *saved.integrator == Integrator::implicit ? "implicit" : "leapfrog";
-  if (saved.field_tolerance > 0) json["field_tolerance"] = saved.field_tolerance;
-  if (s.steps.contact_stiffness > 0) json["contact_stiffness"] = s.steps.contact_stiffness;
-  if (s.steps.self.stiffness > 0) json["self_contact"] = to_json(s.steps.self);
-  if (!s.steps.fresh.empty()) json["fresh"] = s.steps.fresh;
-  for (const Vec3& home : s.homes)
-    for (int k = 0; k < 3; ++k) json["homes"].push_back(home[k]);
+  Json json{{"version", version}};
+  list_state(FieldWriter{json}, saved);
   return json;
-}
-
-/// Lists of indices of the mesh's vertices.
-std::vector<std::vector<int>> pins_of(const Json& json, std::size_t vertices) {
-  std::vector<std::vector<int>> pins;
-  for (const Json& list : json) {
-    pins.emplace_back();
-    for (const Json& index : list) {
-      const double i = index.get<double>();
-      if (!(i >= 0 && i < double(vertices)))
-        throw std::invalid_argument("pin " + index.dump() + " is no vertex");
-      pins.back().push_back(static_cast<int>(i));
-    }
-  }
-  return pins;
-}
-
-/// Version 1 is of the time when lines that named no rule were drawn by "safe".
-void name_rule(nlohmann::ordered_json& scene) {
-  if (!scene.contains("lines")) return;
-  auto& lines = scene["lines"];
-  if (lines.is_object() && !lines.contains("rule")) lines["rule"] = "safe";
-  if (!lines.is_array()) return;
-  for (auto& round : lines)
-    if (round.is_object() && !round.contains("rule")) round["rule"] = "safe";
 }
 
 SavedState from_json(const Json& json, std::size_t vertices) {
-  const int version = json.value("version", 0);
-  if (version < 1 || version > 3) throw std::invalid_argument("its version is not 1, 2 or 3");
+  if (json.value("version", 0) != version)
+    throw std::invalid_argument("its version is not " + std::to_string(version));
   SavedState saved;
-  SimulateState& s = saved.simulation;
-  s.time = json.at("time");
-  s.step = json.at("step");
-  s.planned = json.at("planned");
-  s.end = json.at("end");
-  s.dt = json.at("dt");
-  s.dt_longest = number(json.at("dt_longest"));
-  s.steps_left = json.at("steps_left");
-  s.estimated_at = json.at("estimated_at");
-  s.dt_limit = number(json.at("dt_limit"));
-  s.strain_at_estimate = json.at("strain_at_estimate");
-  s.cloth = json.at("cloth");
-  saved.body = json.at("body");
-  s.body_travel = json.at("body_travel");
-  const std::vector<double> homes = json.at("homes");
-  if (homes.size() % 3 != 0) throw std::invalid_argument("a home of a pin is cut short");
-  for (std::size_t i = 0; i + 2 < homes.size(); i += 3)
-    s.homes.emplace_back(homes[i], homes[i + 1], homes[i + 2]);
-  s.compensation.start = json.at("force_jump_start");
-  s.compensation.time_constant = number(json.at("force_jump_fade"));
-  s.totals = totals_of(json.at("totals"));
-  saved.pins = pins_of(json.at("pins"), vertices);
-  saved.lines_drawn = json.at("lines_drawn");
+  list_state(FieldReader{json}, saved);
+  for (const auto& pin : saved.pins)
+    for (const int i : pin)
+      if (i < 0 || std::size_t(i) >= vertices)
+        throw std::invalid_argument("pin " + std::to_string(i) + " is no vertex");
   if (saved.lines_drawn < 0) throw std::invalid_argument("lines_drawn is below 0");
-  saved.contact_gap = json.value("contact_gap", 0.0);  // absent in older files
   if (!(saved.contact_gap >= 0 && saved.contact_gap < 1))
     throw std::invalid_argument("contact_gap is not in [0, 1) m");
-  saved.field_tolerance = json.value("field_tolerance", 0.0);
   if (!(saved.field_tolerance >= 0 && saved.field_tolerance < 1))
     throw std::invalid_argument("field_tolerance is not in [0, 1) m");
-  if (const std::string name = json.value("integrator", ""); !name.empty()) {
-    if (name != "implicit" && name != "leapfrog")
-      throw std::invalid_argument("integrator is neither implicit nor leapfrog");
-    saved.integrator = name == "implicit" ? Integrator::implicit : Integrator::leapfrog;
-  }
-  s.steps.contact_stiffness = json.value("contact_stiffness", 0.0);
-  // Older ones number layers that touch by how a cloth was laid out: it looks for them anew.
-  if (json.contains("self_contact") && version > 2) s.steps.self = self_contact_of(json.at("self_contact"));
-  s.steps.fresh = json.value("fresh", std::vector<int>{});
-  saved.scene = json.at("scene");
   if (!saved.scene.is_object()) throw std::invalid_argument("its scene is no table");
-  if (version == 1) name_rule(saved.scene);
   saved.scene.erase("output");  // a state has none: a stranger's would write where nobody said
   return saved;
 }
