@@ -3,14 +3,13 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstdint>
-#include <cstring>
 #include <string>
 #include <unordered_set>
 #include <utility>
 
 #include "geometry/mesh/errors.h"
+#include "io/base/byte_order.h"
 
 namespace furrow::io {
 namespace {
@@ -79,32 +78,24 @@ void check_counts(const PlyHeader& header, const TextScanner& in, std::size_t fi
   }
 }
 
-template <class T>
-double number_of(std::string_view bytes, bool swapped) {
-  std::array<char, sizeof(T)> raw;
-  std::copy_n(bytes.begin(), sizeof(T), raw.begin());
-  if (swapped) std::reverse(raw.begin(), raw.end());
-  return static_cast<double>(std::bit_cast<T>(raw));
-}
-
-double number_of(std::string_view bytes, PlyType type, bool swapped) {
+double number_of(const char* at, PlyType type, std::endian order) {
   switch (type) {
     case PlyType::int8:
-      return number_of<std::int8_t>(bytes, swapped);
+      return read_in_order<std::int8_t>(at, order);
     case PlyType::uint8:
-      return number_of<std::uint8_t>(bytes, swapped);
+      return read_in_order<std::uint8_t>(at, order);
     case PlyType::int16:
-      return number_of<std::int16_t>(bytes, swapped);
+      return read_in_order<std::int16_t>(at, order);
     case PlyType::uint16:
-      return number_of<std::uint16_t>(bytes, swapped);
+      return read_in_order<std::uint16_t>(at, order);
     case PlyType::int32:
-      return number_of<std::int32_t>(bytes, swapped);
+      return read_in_order<std::int32_t>(at, order);
     case PlyType::uint32:
-      return number_of<std::uint32_t>(bytes, swapped);
+      return read_in_order<std::uint32_t>(at, order);
     case PlyType::float32:
-      return number_of<float>(bytes, swapped);
+      return read_in_order<float>(at, order);
     default:
-      return number_of<double>(bytes, swapped);
+      return read_in_order<double>(at, order);
   }
 }
 
@@ -183,9 +174,8 @@ double PlyRows::read_value(PlyType type) {
   }
   const std::size_t size = size_of(type);
   if (bytes_.size() < size) fail("the file is cut short");
-  const bool file_is_big = encoding_ == PlyEncoding::big_endian;
-  const double value =
-      number_of(bytes_.substr(0, size), type, file_is_big != (std::endian::native == std::endian::big));
+  const auto order = encoding_ == PlyEncoding::big_endian ? std::endian::big : std::endian::little;
+  const double value = number_of(bytes_.data(), type, order);
   bytes_.remove_prefix(size);
   return value;
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <ostream>
@@ -10,6 +9,7 @@
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/struts.h"
 #include "geometry/mesh/vertex_attributes.h"
+#include "io/base/byte_order.h"
 #include "io/base/number_text.h"
 #include "io/base/own_mark.h"
 #include "io/mesh/mesh_writers.h"
@@ -80,9 +80,7 @@ class PlyWriter {
  private:
   template <class T>
   void put(T value) {
-    auto bytes = std::bit_cast<std::array<char, sizeof(T)>>(value);
-    if (std::endian::native == std::endian::big) std::ranges::reverse(bytes);
-    out_.append(bytes.data(), bytes.size());
+    append_in_order(out_, value, std::endian::little);
   }
   void put_index(std::size_t value) { put(static_cast<std::int32_t>(value)); }
   /// Length in the file's unit.

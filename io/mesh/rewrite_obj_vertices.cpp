@@ -10,65 +10,23 @@
 
 #include "geometry/mesh/errors.h"
 #include "io/base/number_text.h"
+#include "io/base/text_scanner.h"
 #include "io/mesh/file_frame.h"
 #include "io/mesh/material_libraries.h"
 
 namespace furrow::io {
 namespace {
 
-/// Walks over the words of a text; a backslash at the end of a line joins it to the next.
-class Words {
- public:
-  explicit Words(std::string_view text) : text_(text) {}
+/// As the reader has it: a backslash at the end of a line joins it to the next.
+TextScanner words_of(std::string_view text) { return {text, "", TextScanner::Continuation::backslash}; }
 
-  bool at_end() const { return position_ >= text_.size(); }
-  std::size_t position() const { return position_; }
-
-  /// The next word of this line; empty at its end.
-  std::string_view word() {
-    for (; !at_end(); ++position_) {
-      if (const std::size_t joint = joint_length()) {
-        position_ += joint - 1;
-        continue;
-      }
-      if (text_[position_] != ' ' && text_[position_] != '\t') break;
-    }
-    const std::size_t start = position_;
-    while (!at_end() && !is_space(text_[position_]) && !joint_length()) ++position_;
-    return text_.substr(start, position_ - start);
-  }
-
-  /// All words that are left of this line, with the blanks between them.
-  std::string_view words() {
-    const std::size_t first = word().size(), start = position_ - first;
-    std::size_t end = position_;
-    while (!word().empty()) end = position_;
-    return text_.substr(start, end - start);
-  }
-
-  /// To behind the end of this line.
-  void skip_line() {
-    while (!at_end()) {
-      if (const std::size_t joint = joint_length()) {
-        position_ += joint;
-      } else if (const char c = text_[position_++]; c == '\n' || (c == '\r' && !is_next('\n'))) {
-        return;
-      }
-    }
-  }
-
- private:
-  static bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
-  bool is_next(char c) const { return position_ < text_.size() && text_[position_] == c; }
-  /// Of a backslash and the line end behind it; 0: none stands here.
-  std::size_t joint_length() const {
-    const std::string_view rest = text_.substr(position_, 3);
-    return rest == "\\\r\n" ? 3 : rest.starts_with("\\\n") || rest.starts_with("\\\r") ? 2 : 0;
-  }
-
-  std::string_view text_;
-  std::size_t position_ = 0;
-};
+/// All words that are left of this line, with the blanks between them.
+std::string_view words_left(TextScanner& in) {
+  const std::string_view first = in.word();
+  std::string_view last = first;
+  for (std::string_view word = first; !word.empty(); word = in.word()) last = word;
+  return {first.data(), static_cast<std::size_t>(last.data() + last.size() - first.data())};
+}
 
 bool has_value(std::string_view word, double value) {
   if (word.starts_with('+')) word.remove_prefix(1);
@@ -104,11 +62,11 @@ using geometry::Vector;
 class ObjNormals {
  public:
   ObjNormals(std::string_view text, std::span<const Vector> places) : places_(places) {
-    for (Words words(text); !words.at_end(); words.skip_line()) {
-      const std::string_view keyword = words.word();
-      if (keyword == "v") take_vertex(words);
-      if (keyword == "vn") texts_.push_back(words.words());
-      if (keyword == "f") take_face(words);
+    for (TextScanner in = words_of(text); in.next_line();) {
+      const std::string_view keyword = in.word();
+      if (keyword == "v") take_vertex(in);
+      if (keyword == "vn") texts_.push_back(words_left(in));
+      if (keyword == "f") take_face(in);
     }
   }
 
@@ -148,16 +106,16 @@ class ObjNormals {
 
   static std::uint64_t key_of(const ObjCorner& c) { return std::uint64_t{c.vertex} << 32 | c.normal; }
 
-  void take_vertex(Words& words) {
+  void take_vertex(TextScanner& in) {
     const std::size_t v = moved_.size();
     bool stays = v < places_.size();
-    for (int k = 0; stays && k < 3; ++k) stays = has_value(words.word(), places_[v][k]);
+    for (int k = 0; stays && k < 3; ++k) stays = has_value(in.word(), places_[v][k]);
     moved_.push_back(!stays);
   }
 
-  void take_face(Words& words) {
+  void take_face(TextScanner& in) {
     std::vector<ObjCorner> corners;
-    for (std::string_view word; !(word = words.word()).empty() && !word.starts_with('#');)
+    for (std::string_view word; !(word = in.word()).empty();)
       corners.push_back(corner_of(word, moved_.size(), texts_.size()));
     Vector sum(0, 0, 0);
     bool moved = false;
@@ -195,17 +153,18 @@ class ObjRewriter {
 
   std::string rewritten(const std::string& name, const std::filesystem::path& there,
                         const std::filesystem::path& here) {
-    for (Words words(text_); !words.at_end();) {
-      const std::string_view keyword = words.word();
+    TextScanner in = words_of(text_);
+    for (bool more = in.next_line(); more;) {
+      const std::string_view keyword = in.word();
       if (keyword == "mtllib") {
-        const std::string_view library = words.words();
+        const std::string_view library = words_left(in);
         if (!library.empty()) put(library, library_from(std::string(library), there, here));
       }
-      if (keyword == "v") write_vertex(words, name);
-      if (keyword == "f" && new_normals_) write_face(words);
+      if (keyword == "v") write_vertex(in, name);
+      if (keyword == "f" && new_normals_) write_face(in);
       if (keyword == "vn") ++normal_;
-      words.skip_line();
-      if (keyword == "vn" && new_normals_) write_normals(keyword, words.position());
+      more = in.next_line();
+      if (keyword == "vn" && new_normals_) write_normals(keyword, in.position());
     }
     return result_ += text_.substr(copied_);
   }
@@ -219,12 +178,12 @@ class ObjRewriter {
     copied_ = start + word.size();
   }
 
-  void write_vertex(Words& words, const std::string& name) {
+  void write_vertex(TextScanner& in, const std::string& name) {
     if (vertex_ == places_.size())
       throw geometry::ContentError(name + ": has more vertices than the mesh that was read from it");
     const Vector& p = places_[vertex_++];
     for (int k = 0; k < 3; ++k) {
-      const std::string_view word = words.word();
+      const std::string_view word = in.word();
       if (word.empty())
         throw geometry::ContentError(name + ": vertex " + std::to_string(vertex_) + " has no three numbers");
       std::string number(word);
@@ -240,8 +199,8 @@ class ObjRewriter {
     put(text_.substr(start, line_end - start), normal_ == 1 ? normals_.lines(of_dos ? "\r\n" : "\n") : "");
   }
 
-  void write_face(Words& words) {
-    for (std::string_view word; !(word = words.word()).empty() && !word.starts_with('#');) {
+  void write_face(TextScanner& in) {
+    for (std::string_view word; !(word = in.word()).empty();) {
       const ObjCorner corner = corner_of(word, vertex_, normal_);
       if (const std::size_t number = normals_.number_of(corner))
         put(word.substr(corner.normal_at), std::to_string(number));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <bit>
 #include <cstdint>
 
 #include "geometry/mesh/errors.h"
+#include "io/base/byte_order.h"
 #include "io/base/name_table.h"
 #include "io/base/text_scanner.h"
 #include "io/mesh/file_frame.h"
@@ -16,13 +16,10 @@ using namespace geometry;
 
 constexpr std::size_t header = 84, facet = 50;  // [bytes]
 
-std::uint32_t word_at(std::string_view bytes, std::size_t at) {
-  std::uint32_t word = 0;
-  for (int i = 3; i >= 0; --i) word = word << 8 | static_cast<unsigned char>(bytes[at + i]);
-  return word;
+template <class T>
+T number_at(std::string_view bytes, std::size_t at) {
+  return read_in_order<T>(bytes.data() + at, std::endian::little);
 }
-
-float float_at(std::string_view bytes, std::size_t at) { return std::bit_cast<float>(word_at(bytes, at)); }
 
 class StlReader {
  public:
@@ -35,6 +32,7 @@ class StlReader {
     else
       read_text();
     if (file.group_names.empty()) soup.groups.clear();
+    file.repairs.merged_vertices = shared_;
   }
 
   PolygonSoup soup;
@@ -43,7 +41,8 @@ class StlReader {
  private:
   /// Some binary files begin with "solid" too: the length decides first.
   bool is_binary() const {
-    if (bytes_.size() >= header && bytes_.size() == header + facet * word_at(bytes_, 80)) return true;
+    if (bytes_.size() >= header && bytes_.size() == header + facet * number_at<std::uint32_t>(bytes_, 80))
+      return true;
     const auto first = bytes_.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
     if (first == bytes_.npos || !bytes_.substr(first).starts_with("solid")) return true;
     return bytes_.substr(0, 1000).find('\0') != bytes_.npos;
@@ -60,7 +59,7 @@ class StlReader {
 
   void read_binary() {
     if (bytes_.size() < header) throw ContentError(name_ + ": shorter than the header of an STL file");
-    const std::size_t count = word_at(bytes_, 80), room = (bytes_.size() - header) / facet;
+    const std::size_t count = number_at<std::uint32_t>(bytes_, 80), room = (bytes_.size() - header) / facet;
     if (count > room)
       throw ContentError(name_ + ": the header announces " + std::to_string(count) +
                          " triangles, the file holds " + std::to_string(room) +
@@ -70,15 +69,13 @@ class StlReader {
     for (std::size_t f = 0; f < count; ++f) {
       const std::size_t at = header + facet * f;
       for (int k = 0; k < 3; ++k) {
-        const std::size_t v = at + 12 + 12 * k;
-        const auto point =
-            from_file(float_at(bytes_, v), float_at(bytes_, v + 4), float_at(bytes_, v + 8), options_);
+        const auto c = [&](int i) { return number_at<float>(bytes_, at + 12 + 12 * k + 4 * i); };
+        const auto point = from_file(c(0), c(1), c(2), options_);
         if (!point) throw ContentError(name_ + ": face " + std::to_string(f) + ": " + bad_coordinate);
         add_corner(*point);
       }
       soup.close_face();
     }
-    finish();
   }
 
   void read_text() {
@@ -86,7 +83,6 @@ class StlReader {
     std::string_view word = in.next_word();
     for (; word == "solid"; word = in.next_word()) read_solid(in);
     if (!word.empty()) in.fail(in_quotes(word) + " where 'solid' should stand; correct it");
-    finish();
   }
 
   void read_solid(TextScanner& in) {
@@ -129,8 +125,6 @@ class StlReader {
     expect(in, "endfacet");
     soup.close_face();
   }
-
-  void finish() { file.repairs.merged_vertices = shared_; }
 
   std::string_view bytes_;
   std::string name_;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <ostream>
 
+#include "io/base/byte_order.h"
 #include "io/base/own_mark.h"
 #include "io/mesh/mesh_writers.h"
 
@@ -12,12 +12,8 @@ namespace {
 
 using namespace geometry;
 
-void put(std::string& out, std::uint32_t word) {
-  for (int i = 0; i < 4; ++i) out += static_cast<char>(word >> 8 * i & 255);
-}
-
 void put(std::string& out, const Vector& v) {
-  for (int k = 0; k < 3; ++k) put(out, std::bit_cast<std::uint32_t>(static_cast<float>(v[k])));
+  for (int k = 0; k < 3; ++k) append_in_order(out, static_cast<float>(v[k]), std::endian::little);
 }
 
 }  // namespace
@@ -27,7 +23,7 @@ void write_stl(std::ostream& out, const MeshFile& file, const WriteOptions& opti
   check_positions(mesh, options);
   std::string bytes = "binary STL " + std::string(own_mark);  // must not begin with "solid"
   bytes.resize(80, ' ');
-  put(bytes, static_cast<std::uint32_t>(mesh.number_of_faces()));
+  append_in_order(bytes, static_cast<std::uint32_t>(mesh.number_of_faces()), std::endian::little);
   for (const Face f : mesh.faces()) {
     Vector corners[3];
     int k = 0;
