@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/band/refine_band.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "geometry/band/band_mesh.h"
@@ -8,8 +9,9 @@
 #include "geometry/band/curve_arcs.h"
 #include "geometry/band/embed_curve.h"
 #include "geometry/band/relax_band.h"
-#include "geometry/band/split_band.h"
+#include "geometry/band/split_longest.h"
 #include "geometry/mesh/preconditions.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::geometry {
 namespace {
@@ -17,6 +19,7 @@ namespace {
 constexpr int most_rounds = 12;  ///< of splits; each halves what is too long
 constexpr int relaxations = 12;  ///< after the curves are embedded
 constexpr int late_rounds = 3;
+constexpr double too_long = 1.33;  ///< of the sizing
 
 void check(const Mesh& mesh, std::span<const FoldCurve> curves, const BandOptions& options) {
   if (!(options.least_edge > 0))
@@ -36,6 +39,51 @@ void check(const Mesh& mesh, std::span<const FoldCurve> curves, const BandOption
         refuse("refine_band", name + "has a place that is not on the mesh");
     }
   }
+}
+
+Point centre_of(const Mesh& mesh, Face f) {
+  const auto c = corners_of(mesh, f);
+  return CGAL::centroid(mesh.point(c[0]), mesh.point(c[1]), mesh.point(c[2]));
+}
+
+/// The faces of the band: those that hang together with the faces that the curves run over, through faces
+/// near a curve or with an edge longer than the sizing wants. Other layers of cloth, however near, are none.
+/// By face index. O(faces of the band).
+std::vector<bool> band_faces(const Mesh& mesh, const EdgeMap<double>& rest, std::span<const FoldCurve> curves,
+                             const BandSizing& sizing) {
+  std::vector<bool> inside(mesh.num_faces(), false);
+  std::vector<Face> queue;
+  const auto add = [&](Face f) {
+    if (!f.is_valid() || inside[f.idx()]) return;
+    inside[f.idx()] = true;
+    queue.push_back(f);
+  };
+  for (const FoldCurve& curve : curves)
+    for (const FacePoint& p : curve.places) add(p.face);
+  for (std::size_t next = 0; next < queue.size(); ++next) {
+    physics::throw_if_cancelled("wrinkle");
+    const auto lengths = rest_lengths_of(mesh, rest, queue[next]);
+    const double longest = *std::max_element(lengths.begin(), lengths.end());
+    const Point centre = centre_of(mesh, queue[next]);
+    if (!(sizing.at(centre, longest) < longest) && !sizing.in_band(centre)) continue;
+    for (Halfedge h : halfedges_of(mesh, queue[next]))
+      if (!mesh.is_border(mesh.opposite(h))) add(mesh.face(mesh.opposite(h)));
+  }
+  return inside;
+}
+
+/// Splits edges of the band, the longest first, until none is longer at rest than 1.33 of the sizing at its
+/// middle. Where a side of its two faces is longer than 1.25 of it, that side is split first (Rivara's
+/// longest edge), so that angles stay bounded. Returns how many. O(n log n).
+std::size_t split_band(BandMesh& band, const BandSizing& sizing) {
+  const Mesh& mesh = band.mesh;
+  const auto length = [&](Edge e) { return band.rest[e]; };
+  const auto is_too_long = [&](Edge e) {
+    const double most = band.rest[e] / too_long;
+    const Halfedge h = band.from_lower(e);
+    return sizing.at(CGAL::midpoint(mesh.point(mesh.source(h)), mesh.point(mesh.target(h))), most) < most;
+  };
+  return split_longest(band, length, is_too_long, [&](Edge e) { return band.split(e, 0.5); });
 }
 
 /// Splits, two relaxations, until nothing is too long.

@@ -51,7 +51,7 @@ struct BandReport {
 /// attribute::line and line_edge. Throws std::invalid_argument for an option or a curve without two points or
 /// with places out of the mesh, ContentError for a mesh that is not of triangles or a curve that cannot be
 /// followed; the mesh is unchanged then.
-/// About O(new vertices). \details Steps: split_band.h, relax_band.h, embed_curve.h.
+/// About O(new vertices). \details Steps: relax_band.h, embed_curve.h.
 BandReport refine_band(Mesh& mesh, std::span<const FoldCurve> curves, const BandOptions& options = {});
 
 }  // namespace furrow::geometry

@@ -10,7 +10,7 @@
 #include "geometry/band/band_mesh.h"
 #include "geometry/band/band_report.h"
 #include "geometry/band/curve_arcs.h"
-#include "geometry/band/relax_displaced.h"
+#include "geometry/band/relax_band.h"
 #include "geometry/band/split_longest.h"
 #include "geometry/band/tighten_displaced.h"
 #include "geometry/mesh/errors.h"
@@ -26,6 +26,8 @@ constexpr double least_height = 0.01;  ///< of a face's longest side, after a fl
 constexpr double delaunay_tie = 1e-7;
 constexpr int most_passes = 20;
 constexpr int displaced_relaxations = 2;  ///< after the splits of a pass, and twice as many at last
+constexpr double good_displaced = 0.6;    ///< quality that a step may come down to in the displaced shape
+constexpr double good_undisplaced = 0.3;  ///< and undisplaced, where flanks are short
 
 double distance(const Point& a, const Point& b) { return std::sqrt((a - b).squared_length()); }
 
@@ -39,6 +41,56 @@ double cotangent_at(const Point& c, const Point& a, const Point& b) {
 double height_over_side(const Point& a, const Point& b, const Point& c) {
   const double area = std::sqrt(CGAL::cross_product(b - a, c - a).squared_length());
   return area / std::max({(b - a).squared_length(), (c - b).squared_length(), (a - c).squared_length()});
+}
+
+/// Least quality of the star's faces with its centre at p, negative where one turns over.
+double displaced_quality(const Mesh& mesh, const std::vector<Point>& at, const Star& star, const Point& p) {
+  const Point& before = at[star.centre.idx()];
+  double least = 1;
+  for (std::size_t i = 0; i < star.faces(); ++i) {
+    const Point &a = at[mesh.target(star.spokes[i]).idx()],
+                &b = at[mesh.target(star.spokes[star.after(i)]).idx()];
+    const Vector now = CGAL::cross_product(a - p, b - p), was = CGAL::cross_product(a - before, b - before);
+    const double sides = (a - p).squared_length() + (b - a).squared_length() + (p - b).squared_length();
+    const double area = std::sqrt(now.squared_length());
+    least = std::min(least, 2 * std::numbers::sqrt3 * (now * was > 0 ? area : -area) / sides);
+  }
+  return least;
+}
+
+bool may_move(const BandMesh& band, Vertex v) {
+  return !band.is_old(v) && band.hold[v.idx()] == Hold::free && band.on[v.idx()].empty();
+}
+
+/// One round of better places for the band's new vertices, as relax_band() gives, but in the displaced shape:
+/// splits halve edges, and a mesh of halves has corners of four faces, at which even a smooth fold looks
+/// knobbly. Only free vertices move, that lie on no curve, seam or border; the rest metric is kept. A step
+/// that turns a face over in either shape, or makes the worst face of a star worse where it is bad, is
+/// refused. `displaced` follows. O(vertices of the band).
+void relax_displaced(BandMesh& band, const BandSizing& sizing, std::vector<Point>& displaced,
+                     const Displacing& displacing) {
+  const Mesh& mesh = band.mesh;
+  const std::vector<Vertex> vertices = band.vertices();
+  std::vector<double> size(mesh.num_vertices(), 0);
+  for (Vertex v : vertices) size[v.idx()] = sizing.at(mesh.point(v), 4 * band.mean_edge(v));
+  for (Vertex v : vertices) {
+    physics::throw_if_cancelled("wrinkle");
+    if (!may_move(band, v)) continue;
+    const Star raised = lay_flat(mesh, displaced, v), flat = lay_flat(mesh, band.rest, v);
+    const StarPoint to = find_in_star(raised, relaxed_place(mesh, raised, size));
+    if (to.weights[0] == 1 || std::min({to.weights[0], to.weights[1], to.weights[2]}) < 0) continue;
+    const Between between{
+        {v, mesh.target(raised.spokes[to.face]), mesh.target(raised.spokes[raised.after(to.face)])},
+        to.weights};
+    const FacePoint place = band.base.project(band.place[v.idx()], position_in(mesh, flat, to));
+    const Point p = displacing.at(between, place);
+    const double now = displaced_quality(mesh, displaced, raised, displaced[v.idx()]);
+    if (!(displaced_quality(mesh, displaced, raised, p) >= std::min(good_displaced, now))) continue;
+    const Place2 there = place_in(flat, to);
+    if (!band.move(flat, there, std::min(good_undisplaced, least_quality(flat, {0, 0})))) continue;
+    displaced[v.idx()] = p;
+    displacing.take(v);
+  }
 }
 
 class SecondPass {

@@ -29,9 +29,8 @@ struct DisplacedReport {
 };
 
 /// The second pass: steep flanks stretch the band, so edges longer than 1.5 of the sizing in the displaced
-/// shape are split, Delaunay flips made in that shape, and new vertices moved to better places
-/// (relax_displaced.h), until nothing is too long but edges below 0.2 of the sizing undisplaced: where
-/// heights jump no split helps. Last, edges are flipped to lie along the folds (tighten_displaced.h). A flip
+/// shape are split, Delaunay flips made in that shape, and new vertices moved to better places, until nothing
+/// is too long but edges below 0.2 of the sizing undisplaced: where heights jump no split helps. Last, edges are flipped to lie along the folds (tighten_displaced.h). A flip
 /// that meets more than 40 degrees between its faces, or would leave a face with a height below 1 % of its
 /// side, is refused. `mesh` is what refine_band left, undisplaced, and stays so; `given` the mesh before
 /// that; `displaced` holds the displaced place of every vertex and gets those of the new ones. `band` is kept

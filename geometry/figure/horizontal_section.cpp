@@ -119,19 +119,6 @@ std::vector<SectionLoop> horizontal_section(std::span<const Point> points,
   return loops;
 }
 
-std::vector<SectionLoop> horizontal_section(const Mesh& mesh, double height) {
-  require_triangles(mesh, "horizontal_section");
-  std::vector<Point> points(mesh.num_vertices(), Point(0, 0, 0));
-  for (Vertex v : mesh.vertices()) points[v.idx()] = mesh.point(v);
-  std::vector<std::array<int, 3>> triangles;
-  for (Face f : mesh.faces()) {
-    const Halfedge h = mesh.halfedge(f);
-    triangles.push_back({static_cast<int>(mesh.source(h)), static_cast<int>(mesh.target(h)),
-                         static_cast<int>(mesh.target(mesh.next(h)))});
-  }
-  return horizontal_section(points, triangles, height);
-}
-
 namespace {
 
 /// The corners of the convex hull in the plane, all the way round: the first is repeated at the end.

@@ -34,9 +34,6 @@ struct SectionLoop {
 /// them at an edge). O(triangles).
 std::vector<SectionLoop> horizontal_section(std::span<const Point> points,
                                             std::span<const std::array<int, 3>> triangles, double height);
-/// Of a mesh; its triangles are numbered in the order of mesh.faces(). Throws ContentError for a face that is
-/// no triangle, too.
-std::vector<SectionLoop> horizontal_section(const Mesh& mesh, double height);
 
 /// What a tape measure around the curve reads: the perimeter of its convex hull in the plane [m]; 0 without
 /// points. O(points log points).

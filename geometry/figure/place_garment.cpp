@@ -117,16 +117,4 @@ PlacedGarment place_garment(const Mesh& garment, const Skeleton& from, const Ske
   return placed;
 }
 
-PlacedGarment place_garment(const Mesh& garment, const Body& from, const Body& to) {
-  const auto skeleton_of = [](const Body& body, const char* which) {
-    try {
-      return find_skeleton(body.points, body.triangles);
-    } catch (const ContentError& e) {
-      throw ContentError(std::string(which) + e.what());
-    }
-  };
-  return place_garment(garment, skeleton_of(from, "of the body that the garment was made for: "),
-                       skeleton_of(to, ""));
-}
-
 }  // namespace furrow::geometry

@@ -119,22 +119,26 @@ void fill_holes(ExactMesh& body, BodyReport& report) {
   }
 }
 
-/// Turns every component that encloses a negative volume.
-void wind_by_volume(ExactMesh& body) {
+/// What hangs together, with six times its volume, and that of all its faces counted as positive.
+struct Component {
+  std::vector<ExactMesh::Face_index> faces;
+  double volume = 0, scale = 0;
+};
+
+std::vector<Component> components_of(ExactMesh& body) {
   auto component = body.add_property_map<ExactMesh::Face_index, std::size_t>("f:component", 0).first;
-  const std::size_t n = pmp::connected_components(body, component);
-  std::vector<std::vector<ExactMesh::Face_index>> faces(n);
-  for (auto f : body.faces()) faces[component[f]].push_back(f);
-  for (const auto& part : faces) {
-    double volume = 0;
-    for (auto f : part) {
-      std::vector<Exact::Point_3> p;
-      for (auto v : body.vertices_around_face(body.halfedge(f))) p.push_back(body.point(v));
-      volume += CGAL::determinant(p[0] - CGAL::ORIGIN, p[1] - CGAL::ORIGIN, p[2] - CGAL::ORIGIN);
-    }
-    if (volume < 0) pmp::reverse_face_orientations(part, body);
+  std::vector<Component> components(pmp::connected_components(body, component));
+  for (auto f : body.faces()) {
+    std::vector<Exact::Point_3> p;
+    for (auto v : body.vertices_around_face(body.halfedge(f))) p.push_back(body.point(v));
+    const double part = CGAL::determinant(p[0] - CGAL::ORIGIN, p[1] - CGAL::ORIGIN, p[2] - CGAL::ORIGIN);
+    Component& of = components[component[f]];
+    of.faces.push_back(f);
+    of.volume += part;
+    of.scale += std::abs(part);
   }
   body.remove_property_map(component);
+  return components;
 }
 
 void gather(const ExactMesh& mesh, Body& body) {
@@ -159,23 +163,8 @@ std::size_t intersections_of(const Body& body) {
   }
 }
 
-/// Whether every component has a volume, which is what orient_to_bound_a_volume() takes; flat ones have none.
-bool encloses_volume(const ExactMesh& body) {
-  auto copy = body;
-  auto component = copy.add_property_map<ExactMesh::Face_index, std::size_t>("f:component", 0).first;
-  const std::size_t n = pmp::connected_components(copy, component);
-  std::vector<double> volume(n, 0), scale(n, 0);
-  for (auto f : copy.faces()) {
-    std::vector<Exact::Point_3> p;
-    for (auto v : copy.vertices_around_face(copy.halfedge(f))) p.push_back(copy.point(v));
-    const double part = CGAL::determinant(p[0] - CGAL::ORIGIN, p[1] - CGAL::ORIGIN, p[2] - CGAL::ORIGIN);
-    volume[component[f]] += part;
-    scale[component[f]] += std::abs(part);
-  }
-  for (std::size_t i = 0; i < n; ++i)
-    if (!(std::abs(volume[i]) > 1e-12 * scale[i])) return false;
-  return true;
-}
+/// Whether it has a volume, which is what orient_to_bound_a_volume() takes; flat ones have none.
+bool has_volume(const Component& c) { return std::abs(c.volume) > 1e-12 * c.scale; }
 
 }  // namespace
 
@@ -193,10 +182,14 @@ Body repair_body(const Mesh& mesh) {
 
   gather(exact, body);
   body.report.self_intersections = intersections_of(body);
-  if (body.report.closed && body.report.self_intersections == 0 && encloses_volume(exact))
+  const std::vector<Component> components = components_of(exact);
+  body.report.components = components.size();
+  if (body.report.closed && body.report.self_intersections == 0 &&
+      std::ranges::all_of(components, has_volume))
     pmp::orient_to_bound_a_volume(exact);
   else
-    wind_by_volume(exact);
+    for (const Component& c : components)
+      if (c.volume < 0) pmp::reverse_face_orientations(c.faces, exact);
   body.points.clear();
   body.triangles.clear();
   gather(exact, body);
@@ -207,8 +200,6 @@ Body repair_body(const Mesh& mesh) {
     for (auto v : exact.vertices_around_face(exact.halfedge(f))) c[i++] = exact.point(v);
     body.report.reversed_faces += reversed.count(cyclic(c));
   }
-  auto component = exact.add_property_map<ExactMesh::Face_index, std::size_t>("f:component", 0).first;
-  body.report.components = pmp::connected_components(exact, component);
   return body;
 }
 

@@ -13,6 +13,7 @@ namespace furrow::geometry {
 struct Link {
   Vertex from, to;
   Vertex a, b;
+  Edge edge;  ///< a-b, until it is flipped or split
   double t = 0.5;
   bool route = false;              ///< never flip or split here: go through corners
   std::vector<Vertex> between;     ///< set by connect_line: what the line passes from `from` to `to`

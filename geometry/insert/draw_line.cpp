@@ -61,7 +61,7 @@ struct Nodes {
   std::map<Vertex, Vector> normals;     ///< of the faces that new vertices split
 };
 
-using Links = std::vector<std::pair<Link, Edge>>;
+using Links = std::vector<Link>;
 
 struct Chains {
   std::vector<std::vector<Vertex>> chains;     ///< one a sub-stroke
@@ -163,27 +163,18 @@ Links links_between(const Mesh& mesh, const Drawing& d, const Nodes& nodes) {
     const std::size_t n = part.faces.size();
     for (std::size_t i = 0; i + (part.closed ? 0 : 1) < n; ++i) {
       const EdgeCrossing& x = *part.faces[i].exit;
-      const Edge edge = mesh.edge(x.halfedge);
       Link link;
+      link.edge = mesh.edge(x.halfedge);
       link.from = nodes.of_face.at(part.faces[i].face);
       link.to = nodes.of_face.at(part.faces[(i + 1) % n].face);
       link.a = mesh.source(x.halfedge);
       link.b = mesh.target(x.halfedge);
       link.t = x.t;
-      link.route = d.plan.routed.count(edge) > 0;
-      links.push_back({link, edge});
+      link.route = d.plan.routed.count(link.edge) > 0;
+      links.push_back(link);
     }
   }
   return links;
-}
-
-/// connect_line for links with their edges; returns the edges that were no line edges before.
-std::set<Edge> connect(MeshEditor& editor, Links& links, const Drawing& d, InsertionReport& report) {
-  std::vector<Link> bare;
-  for (const auto& entry : links) bare.push_back(entry.first);
-  const std::set<Edge> fresh = connect_line(editor, bare, d.mean_edge, d.options, report);
-  for (std::size_t i = 0; i < bare.size(); ++i) links[i].first = bare[i];
-  return fresh;
 }
 
 /// Where a stroke leaves the cloth or comes onto it, the line goes to the nearer end of the border edge
@@ -225,8 +216,8 @@ Chains chains_along(const MeshEditor& editor, const Drawing& d, const Nodes& nod
     push_end(first, first.entry);
     push(chain, nodes.of_face.at(first.face), is_node);
     for (std::size_t i = 0; i + (part.closed ? 0 : 1) < part.faces.size(); ++i, ++next) {
-      for (Vertex v : links[next].first.between) push(chain, v, is_node);
-      push(chain, links[next].first.to, is_node);
+      for (Vertex v : links[next].between) push(chain, v, is_node);
+      push(chain, links[next].to, is_node);
     }
     push_end(last, last.exit);
     result.chains.push_back(std::move(chain));
@@ -247,7 +238,7 @@ void mark_line(MeshEditor& editor, const std::vector<std::vector<Vertex>>& chain
 
 std::vector<MissingLineEdge> missing_edges(const MeshEditor& editor, const Links& links) {
   std::vector<MissingLineEdge> missing;
-  for (const auto& [link, edge] : links)
+  for (const Link& link : links)
     if (link.refusal && link.between.empty() && !editor.edge_between(link.from, link.to))
       missing.push_back({link.from, link.to, *link.refusal});
   return missing;
@@ -297,7 +288,7 @@ DrawnLine draw_line(const Mesh& mesh, const TracedStroke& traced, const LinePlan
   const Nodes nodes = split_faces(editor, chosen);
   out.inserted_in = nodes.inserted_in;
   out.links = links_between(editor.mesh(), drawing, nodes);
-  const std::set<Edge> fresh = connect(editor, out.links, drawing, report);
+  const std::set<Edge> fresh = connect_line(editor, out.links, mean_edge, options, report);
   Chains chains = chains_along(editor, drawing, nodes, out.links);
   mark_line(editor, chains.chains, line_id, fresh);
   std::erase_if(rim, [&](Edge e) { return fresh.count(e) > 0; });

@@ -22,8 +22,8 @@ struct LinePlan {
 struct DrawnLine {
   Mesh mesh;
   Insertion insertion;
-  std::map<Vertex, Face> inserted_in;        ///< new vertices of faces
-  std::vector<std::pair<Link, Edge>> links;  ///< with the edge that the stroke crosses there
+  std::map<Vertex, Face> inserted_in;  ///< new vertices of faces
+  std::vector<Link> links;             ///< of consecutive nodes
 };
 
 /// Inserts, joins, flips and restores the Delaunay property; see insert_along_stroke. `mean_edge` is h [m].

@@ -64,10 +64,10 @@ bool route_links(const DrawnLine& drawn, Face face, LinePlan& next) {
     return std::find(corners.begin(), corners.end(), v) != corners.end();
   };
   bool changed = false;
-  for (const auto& [link, edge] : drawn.links) {
+  for (const Link& link : drawn.links) {
     const bool here = (at_corner(link.from) && at_corner(link.to)) ||
                       std::any_of(link.between.begin(), link.between.end(), at_corner);
-    if (here) changed = next.routed.insert(edge).second || changed;
+    if (here) changed = next.routed.insert(link.edge).second || changed;
   }
   return changed;
 }

@@ -2,6 +2,7 @@
 #include "geometry/insert/insertion.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -11,25 +12,9 @@
 namespace furrow::geometry {
 
 const char* to_string(Refusal refusal) {
-  switch (refusal) {
-    case Refusal::border:
-      return "border";
-    case Refusal::seam:
-      return "seam";
-    case Refusal::line_edge:
-      return "line edge";
-    case Refusal::duplicate_edge:
-      return "duplicate edge";
-    case Refusal::not_convex:
-      return "not convex";
-    case Refusal::valence:
-      return "valence";
-    case Refusal::layer:
-      return "layer";
-    case Refusal::quality:
-      return "quality";
-  }
-  return "unknown";
+  constexpr std::array words{"border",     "seam",    "line edge", "duplicate edge",
+                             "not convex", "valence", "layer",     "quality"};
+  return words[static_cast<std::size_t>(refusal)];
 }
 
 void check(const InsertionOptions& options) {

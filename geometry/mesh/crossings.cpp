@@ -7,17 +7,13 @@
 #include <map>
 #include <numeric>
 
+#include "geometry/mesh/face_point.h"
 #include "geometry/mesh/self_intersections.h"
 
 namespace furrow::geometry {
 namespace {
 
 using Pair = std::array<Face, 2>;
-
-std::array<Vertex, 3> corners(const Mesh& mesh, Face f) {
-  const Halfedge h = mesh.halfedge(f);
-  return {mesh.source(h), mesh.target(h), mesh.target(mesh.next(h))};
-}
 
 /// Sets of faces that are joined one by one.
 class Joined {
@@ -42,7 +38,7 @@ Joined join_places(const Mesh& mesh, const std::vector<Pair>& pairs, const std::
   for (const auto& [f, g] : pairs) joined.join(f.idx(), g.idx());
   std::vector<std::ptrdiff_t> first(mesh.num_vertices(), -1);
   for (Face f : faces)
-    for (Vertex v : corners(mesh, f)) {
+    for (Vertex v : corners_of(mesh, f)) {
       if (first[v.idx()] >= 0) joined.join(std::size_t(first[v.idx()]), f.idx());
       first[v.idx()] = std::ptrdiff_t(f.idx());
     }
@@ -78,7 +74,7 @@ Crossings find_crossings(const Mesh& mesh, const Parts& parts, std::span<const c
   std::sort(result.faces.begin(), result.faces.end());
   result.faces.erase(std::unique(result.faces.begin(), result.faces.end()), result.faces.end());
   const auto was_crossed = [&](Face f) {
-    const auto v = corners(mesh, f);
+    const auto v = corners_of(mesh, f);
     return std::any_of(v.begin(), v.end(),
                        [&](Vertex c) { return c.idx() < crossed.size() && crossed[c.idx()]; });
   };
@@ -93,7 +89,7 @@ Crossings find_crossings(const Mesh& mesh, const Parts& parts, std::span<const c
     result.from_start += old;
     ++at.parts[{low, high}];
     for (Face face : {f, g})
-      for (Vertex v : corners(mesh, face)) at.box += mesh.point(v).bbox();
+      for (Vertex v : corners_of(mesh, face)) at.box += mesh.point(v).bbox();
   }
   for (const auto& [root, gathered] : places) result.places.push_back(sum_up(gathered));
   std::stable_sort(result.places.begin(), result.places.end(),
@@ -104,7 +100,7 @@ Crossings find_crossings(const Mesh& mesh, const Parts& parts, std::span<const c
 std::vector<char> crossed_vertices(const Mesh& mesh, const Crossings& crossings) {
   std::vector<char> crossed(mesh.num_vertices(), 0);
   for (Face f : crossings.faces)
-    for (Vertex v : corners(mesh, f)) crossed[v.idx()] = 1;
+    for (Vertex v : corners_of(mesh, f)) crossed[v.idx()] = 1;
   return crossed;
 }
 

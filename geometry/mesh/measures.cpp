@@ -11,32 +11,11 @@
 #include "geometry/mesh/border_loops.h"
 #include "geometry/mesh/degenerate_faces.h"
 #include "geometry/mesh/edge_metric.h"
+#include "geometry/mesh/parts.h"
 #include "geometry/mesh/preconditions.h"
 
 namespace furrow::geometry {
 namespace {
-
-std::size_t count_components(const Mesh& mesh) {
-  std::vector<char> seen(mesh.num_faces(), 0);
-  std::vector<Face> stack;
-  std::size_t components = 0;
-  for (Face seed : mesh.faces()) {
-    if (seen[seed.idx()]) continue;
-    ++components;
-    seen[seed.idx()] = 1;
-    stack.push_back(seed);
-    while (!stack.empty()) {
-      const Face f = stack.back();
-      stack.pop_back();
-      for (Face g : mesh.faces_around_face(mesh.halfedge(f))) {
-        if (!g.is_valid() || seen[g.idx()]) continue;
-        seen[g.idx()] = 1;
-        stack.push_back(g);
-      }
-    }
-  }
-  return components;
-}
 
 /// Whether all halfedges that end at a vertex are one fan: at most one gap, and reached by one turn around
 /// it.
@@ -73,17 +52,10 @@ void add_face(const Mesh& mesh, Face f, MeshInfo& info, double& volume) {
 
 void measure_box(const Mesh& mesh, MeshInfo& info) {
   if (info.vertices == 0) return;
-  std::array<double, 3> lo, hi;
-  lo.fill(std::numeric_limits<double>::infinity());
-  hi.fill(-std::numeric_limits<double>::infinity());
-  for (Vertex v : mesh.vertices())
-    for (int i = 0; i < 3; ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      lo[k] = std::min(lo[k], mesh.point(v)[i]);
-      hi[k] = std::max(hi[k], mesh.point(v)[i]);
-    }
-  info.box_min = Point(lo[0], lo[1], lo[2]);
-  info.box_max = Point(hi[0], hi[1], hi[2]);
+  CGAL::Bbox_3 box;
+  for (Vertex v : mesh.vertices()) box += mesh.point(v).bbox();
+  info.box_min = Point(box.xmin(), box.ymin(), box.zmin());
+  info.box_max = Point(box.xmax(), box.ymax(), box.zmax());
 }
 
 }  // namespace
@@ -96,7 +68,7 @@ MeshInfo measure(const Mesh& mesh) {
   info.edges = mesh.number_of_edges();
   info.faces = mesh.number_of_faces();
   for (Vertex v : mesh.vertices()) info.isolated_vertices += mesh.is_isolated(v);
-  info.components = count_components(mesh);
+  info.components = find_parts(mesh).list.size();
   info.boundary_loops = border_loops(mesh).size();
   info.euler_characteristic =
       static_cast<long>(info.vertices - info.isolated_vertices + info.faces) - static_cast<long>(info.edges);

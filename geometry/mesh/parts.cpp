@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "geometry/mesh/face_point.h"
 #include "geometry/mesh/preconditions.h"
 
 namespace furrow::geometry {
@@ -29,8 +30,7 @@ Part measure(const Mesh& mesh, const std::vector<Face>& faces, int number, std::
   part.first = *std::min_element(faces.begin(), faces.end());
   Vector weighted(0, 0, 0);
   for (Face f : faces) {
-    const Halfedge h = mesh.halfedge(f);
-    const Vertex v[3] = {mesh.source(h), mesh.target(h), mesh.target(mesh.next(h))};
+    const auto v = corners_of(mesh, f);
     const Point &a = mesh.point(v[0]), &b = mesh.point(v[1]), &c = mesh.point(v[2]);
     const double area = std::sqrt(CGAL::cross_product(b - a, c - a).squared_length()) / 2;
     part.area += area;

@@ -1,31 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/mesh/self_intersections.h"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/box_intersection_d.h>
-
 #include <algorithm>
-#include <cmath>
 #include <numeric>
-#include <string>
 #include <vector>
 
 #include "geometry/mesh/errors.h"
+#include "geometry/mesh/exact_triangles.h"
 #include "geometry/mesh/preconditions.h"
 #include "physics/base/cancel_scope.h"
 
 namespace furrow::geometry {
 namespace {
 
-using Exact = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t>;
-
 /// Pairs of overlapping boxes that are looked at; a garment has about ten a face.
 double most_candidates(std::size_t triangles) { return std::max(2e7, 200 * double(triangles)); }
-
-bool is_finite(const Point& p) {
-  return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z());
-}
 
 /// For each point, the lowest index of a point at the same position.
 std::vector<int> weld(std::span<const Point> points) {
@@ -43,40 +32,6 @@ std::vector<int> weld(std::span<const Point> points) {
   return first;
 }
 
-/// Triangles with an area, as the predicates take them.
-struct Soup {
-  std::vector<Exact::Triangle_3> shapes;
-  std::vector<std::array<int, 3>> corners;  ///< welded
-  std::vector<std::size_t> names;           ///< indices of the triangles given
-  std::vector<Box> boxes;
-};
-
-Soup gather(std::span<const Point> points, std::span<const std::array<int, 3>> triangles) {
-  if (!std::all_of(points.begin(), points.end(), is_finite))
-    throw ContentError("count_self_intersections: a position is not finite; repair the mesh first");
-  const std::vector<int> welded = weld(points);
-  Soup soup;
-  for (std::size_t k = 0; k < triangles.size(); ++k) {
-    physics::throw_if_cancelled("count_self_intersections");
-    const std::array<int, 3>& t = triangles[k];
-    std::array<Exact::Point_3, 3> p;
-    std::array<int, 3> ids;
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (t[i] < 0 || static_cast<std::size_t>(t[i]) >= points.size())
-        throw ContentError("count_self_intersections: a triangle names the vertex " + std::to_string(t[i]));
-      const Point& q = points[static_cast<std::size_t>(t[i])];
-      p[i] = {q.x(), q.y(), q.z()};
-      ids[i] = welded[static_cast<std::size_t>(t[i])];
-    }
-    if (CGAL::collinear(p[0], p[1], p[2])) continue;
-    soup.shapes.emplace_back(p[0], p[1], p[2]);
-    soup.corners.push_back(ids);
-    soup.names.push_back(k);
-    soup.boxes.emplace_back(soup.shapes.back().bbox(), soup.shapes.size() - 1);
-  }
-  return soup;
-}
-
 /// Boxes that are sorted and scanned in place of cut in halves: faces are small and spread out, for which
 /// CGAL's own 10 takes two to three times as long (3,000 to 49,000 vertices).
 constexpr std::ptrdiff_t scanned = 1000;
@@ -86,19 +41,24 @@ constexpr std::size_t looks_a_question = 32;
 template <class Found>
 void for_each_pair(std::span<const Point> points, std::span<const std::array<int, 3>> triangles,
                    const Found& found) {
-  Soup soup = gather(points, triangles);
+  ExactTriangles exact(points, triangles, "count_self_intersections");
+  const std::vector<int> welded = weld(points);
+  std::vector<std::array<int, 3>> corners;
+  for (const std::size_t name : exact.names) {
+    const std::array<int, 3>& t = triangles[name];
+    corners.push_back({welded[std::size_t(t[0])], welded[std::size_t(t[1])], welded[std::size_t(t[2])]});
+  }
   std::size_t looked = 0;
-  const auto look_at = [&](const Box& a, const Box& b) {
+  const auto look_at = [&](const ExactTriangles::Box& a, const ExactTriangles::Box& b) {
     if (++looked % looks_a_question == 0) physics::throw_if_cancelled("count_self_intersections");
     if (double(looked) > most_candidates(triangles.size()))
       throw ContentError("too many of the faces lie at one place to count those that cross each other");
-    const auto& s = soup.corners[a.info()];
-    const auto& t = soup.corners[b.info()];
+    const auto &s = corners[a.info()], &t = corners[b.info()];
     if (std::find_first_of(s.begin(), s.end(), t.begin(), t.end()) != s.end()) return;
-    if (CGAL::do_intersect(soup.shapes[a.info()], soup.shapes[b.info()]))
-      found(soup.names[a.info()], soup.names[b.info()]);
+    if (CGAL::do_intersect(exact.shapes[a.info()], exact.shapes[b.info()]))
+      found(exact.names[a.info()], exact.names[b.info()]);
   };
-  CGAL::box_self_intersection_d(soup.boxes.begin(), soup.boxes.end(), look_at, scanned);
+  CGAL::box_self_intersection_d(exact.boxes.begin(), exact.boxes.end(), look_at, scanned);
 }
 
 std::vector<std::array<int, 3>> triangles_of(const Mesh& mesh) {

@@ -142,6 +142,8 @@ std::vector<Face> faces_moved(const Mesh& mesh, const RestSnapshot& before) {
   return faces;
 }
 
+}  // namespace
+
 std::size_t turn_hinges(Mesh& mesh, const RestSnapshot& before, std::span<const double> base_angles,
                         std::span<const double> set, RestRule rule) {
   const auto rest = find_map(mesh, attribute::rest_angle);
@@ -156,8 +158,6 @@ std::size_t turn_hinges(Mesh& mesh, const RestSnapshot& before, std::span<const 
   }
   return turned;
 }
-
-}  // namespace
 
 FoldRestReport apply_fold_rest(Mesh& mesh, const RestSnapshot& before, std::span<const double> base_angles,
                                std::span<const double> set, RestRule rule) {

@@ -22,6 +22,10 @@ struct FoldRestReport {
 FoldRestReport apply_fold_rest(Mesh& mesh, const RestSnapshot& before, std::span<const double> base_angles,
                                std::span<const double> set, RestRule rule);
 
+/// The rest angles alone: what apply_fold_rest() says of them. Returns how many changed.
+std::size_t turn_hinges(Mesh& mesh, const RestSnapshot& before, std::span<const double> base_angles,
+                        std::span<const double> set, RestRule rule);
+
 /// Faces that break the triangle inequality at rest, their own lengths (h:rest_length) included.
 std::size_t invalid_rest_faces(const Mesh& mesh);
 

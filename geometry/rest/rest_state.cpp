@@ -2,7 +2,6 @@
 #include "geometry/rest/rest_state.h"
 
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include "geometry/mesh/edge_metric.h"
@@ -10,6 +9,7 @@
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/struts.h"
 #include "geometry/rest/bending_springs.h"
+#include "geometry/rest/fold_rest.h"
 #include "geometry/rest/rest_angles.h"
 #include "geometry/rest/tie_length.h"
 
@@ -34,20 +34,6 @@ class Change {
   const Mesh& mesh_;
   const RestSnapshot& before_;
 };
-
-/// Carries the rest angles over; returns how many changed.
-std::size_t turn_hinges(Mesh& mesh, const RestSnapshot& before) {
-  const auto rest = find_map(mesh, attribute::rest_angle);
-  std::size_t turned = 0;
-  for (Edge e : mesh.edges()) {
-    if (!rest || before.angles.empty() || mesh.is_border(e)) continue;
-    const double grown = dihedral_angle(mesh, e) - before.angles[e.idx()];
-    if (grown == 0 || std::isnan((*rest)[e])) continue;
-    (*rest)[e] = std::remainder((*rest)[e] + grown, 2 * std::numbers::pi);
-    ++turned;
-  }
-  return turned;
-}
 
 /// Returns how many rest lengths changed.
 std::size_t carry_struts(Mesh& mesh, const Change& change) {
@@ -102,7 +88,7 @@ RestReport apply_rest_rule(Mesh& mesh, const RestSnapshot& before, RestRule rule
     ++report.scaled_bending_springs;
   }
   report.scaled_struts = carry_struts(mesh, change);
-  if (rule == RestRule::copied) report.turned_hinges = turn_hinges(mesh, before);
+  if (rule == RestRule::copied) report.turned_hinges = turn_hinges(mesh, before, before.angles, {}, rule);
   return report;
 }
 

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "geometry/mesh/errors.h"
+#include "geometry/mesh/face_point.h"
 #include "tests/test_meshes.h"
 
 using namespace furrow::geometry;
@@ -19,6 +20,16 @@ namespace {
 
 /// Perimeter of the regular n-gon in a circle.
 double ngon(double radius, int n) { return 2 * n * radius * std::sin(std::numbers::pi / n); }
+
+std::vector<SectionLoop> horizontal_section(const Mesh& mesh, double height) {
+  const std::vector<Point> points(mesh.points().begin(), mesh.points().end());
+  std::vector<std::array<int, 3>> triangles;
+  for (const Face f : mesh.faces()) {
+    const auto c = corners_of(mesh, f);
+    triangles.push_back({int(c[0]), int(c[1]), int(c[2])});
+  }
+  return horizontal_section(points, triangles, height);
+}
 
 SectionLoop polygon(const std::vector<std::array<double, 2>>& points) {
   SectionLoop loop;
