@@ -21,6 +21,7 @@
 #include <thread>
 #include <vector>
 
+#include "geometry/mesh/mesh.h"
 #include "io/scene/fabrics.h"
 #include "tests/cases/garment_pair.h"
 

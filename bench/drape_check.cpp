@@ -31,10 +31,10 @@ using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 Mesh read(const char* path) {
   const furrow::io::MeshFile file = furrow::io::read_mesh(path);
   Mesh mesh;
-  for (const auto& p : file.mesh.points()) mesh.add_vertex({p.x(), p.y(), p.z()});
-  for (const auto f : file.mesh.faces()) {
+  for (const auto& p : file.mesh->points()) mesh.add_vertex({p.x(), p.y(), p.z()});
+  for (const auto f : file.mesh->faces()) {
     std::vector<Vertex> v;
-    for (const auto c : file.mesh.vertices_around_face(file.mesh.halfedge(f))) v.emplace_back(c.idx());
+    for (const auto c : file.mesh->vertices_around_face(file.mesh->halfedge(f))) v.emplace_back(c.idx());
     mesh.add_face(v);
   }
   return mesh;

@@ -9,6 +9,7 @@
 #include "cli/common.h"
 #include "cli/shipped.h"
 #include "cli/subcommands.h"
+#include "geometry/figure/repair_body.h"
 #include "jobs/base/read_inputs.h"
 
 namespace furrow::cli {

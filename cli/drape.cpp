@@ -92,7 +92,7 @@ DrapeJob job_of(const DrapeArguments& a) {
   check_call(a);
   DrapeJob job;
   job.scene.settings = scene_settings(a.in, "", std::nullopt, a.flags, a);
-  if (a.colour == "distance" && !job.scene.settings.root.contains("body"))
+  if (a.colour == "distance" && !job.scene.settings.root->contains("body"))
     throw UsageError("--colour distance is that to a body: name one with --body");
   for (std::size_t i = 1; i < a.garments.size(); ++i) {
     if (is_scene(a.garments[i]))
@@ -110,7 +110,7 @@ DrapeJob job_of(const DrapeArguments& a) {
   job.settings.bands = parse_bands(a.bands);
   job.settings.animation = a.animation;
   if (a.subdivide == "auto") {
-    if (auto& root = job.scene.settings.root; root.contains("garment")) {
+    if (auto& root = *job.scene.settings.root; root.contains("garment")) {
       io::Json& garment = root["garment"];
       if (garment.is_object()) garment.erase("subdivide");
       if (garment.is_array())
@@ -162,11 +162,11 @@ void write_picture(DrapeJobReport& report, const DrapeArguments& a, const Common
   for (Draped& d : all) {
     colour_garment(d.file.mesh, scale);
     if (report.layers && &d != &all[0]) {
-      over.push_back(&d.file.mesh);
+      over.push_back(&*d.file.mesh);
       continue;
     }
     const std::string outcome = d.outcome();
-    panels.push_back({&d.file.mesh, body ? &body->mesh : nullptr,
+    panels.push_back({&*d.file.mesh, body ? &*body->mesh : nullptr,
                       d.name + (outcome == "at rest" ? "" : " (" + outcome + ")") +
                           (all.size() > 1 ? "\n" : ": ") + fit_words(d.fit, d.fit_options, colour) +
                           crossing_words(d.crossings),

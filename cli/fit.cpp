@@ -72,13 +72,13 @@ void write_picture(const FitJobReport& report, const FitArguments& a, const Comm
   Frame of_bodies = common;
   if (!a.body_unit.empty()) of_bodies.unit = a.body_unit;
   for (const std::string& path : a.bodies)
-    bodies.push_back(io::read_mesh(path, read_options(of_bodies)).mesh);
+    bodies.push_back(std::move(*io::read_mesh(path, read_options(of_bodies)).mesh));
   const std::vector<std::string> captions = split_at_commas(a.captions);
   std::vector<FitPanel> panels;
   for (std::size_t i = 0; i < report.garments.size(); ++i) {
     const FittedGarment& fitted = report.garments[i];
     panels.push_back(
-        {&fitted.garment.mesh, &bodies[bodies.size() > 1 ? i : 0],
+        {&*fitted.garment.mesh, &bodies[bodies.size() > 1 ? i : 0],
          (i < captions.size() ? captions[i] : fitted.name) + (report.garments.size() > 1 ? "\n" : ": ") +
              fit_words(fitted.report, a.options, report.shown) + crossing_words(fitted.crossings),
          fitted.crossings.faces});

@@ -30,7 +30,7 @@ void begin_group_of(CLI::App& sub, const io::Setting& s, unsigned subcommand) {
 }
 
 void add_pins(io::TomlDocument& document, const char* kind, io::Json value, const std::string& flag) {
-  const std::size_t n = document.root.contains("pins") ? document.root["pins"].size() : 0;
+  const std::size_t n = document.root->contains("pins") ? document.root["pins"].size() : 0;
   io::set_value(document, "pins." + std::to_string(n), io::Json{{kind, std::move(value)}}, flag);
 }
 

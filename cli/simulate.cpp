@@ -35,7 +35,7 @@ void check_accuracy(const SimulateArguments& a, const SimulateJob& job) {
     throw UsageError("--accuracy " + accuracy +
                      " judges a scene from its beginning; leave out one of the two");
   const io::TomlDocument& settings = job.scene.settings;
-  const Json simulation = settings.root.value("simulation", Json::object());
+  const Json simulation = settings.root->value("simulation", Json::object());
   for (const std::string key : {"integrator", "dt", "sweeps"})
     if (simulation.contains(key) && settings.place("simulation." + key).rfind("--", 0) == 0)
       throw UsageError("--accuracy " + accuracy + " chooses integrator and step, and " +
@@ -71,7 +71,7 @@ std::vector<std::string> outputs_of(const Json& settings) {
 void print(const SimulateReport& report, CommonArguments common) {
   common.unit = report.frame.unit;
   common.up = report.frame.up;
-  common.out = report.settings.value("/output/mesh"_json_pointer, std::string());
+  common.out = report.settings->value("/output/mesh"_json_pointer, std::string());
   if (common.out == "-" && report.failure.empty()) write_mesh(report.garment, common);
   Json json = to_json(report);
   json["flags"] = io::equivalent_flags(report.settings, report.state, report.settings_before);

@@ -102,7 +102,7 @@ SceneInput surroundings(const WrinkleArguments& a, const WrinkleJob& job) {
   jobs::take_fabric_file(document, job.state_path.parent_path());
   if (!job.state) jobs::take_recorded_material(document, a.in);
   // Of a mesh drawn again, a.density is that of its record: the fabric's goes before it.
-  const bool has_fabric = document.root.value("material", Json::object()).contains("preset");
+  const bool has_fabric = document.root->value("material", Json::object()).contains("preset");
   if (a.density && (a.typed->count("--density") || !has_fabric))
     io::set_value(document, "material.density", *a.density, "--density");
   if (a.rest == "keep") io::set_value(document, "garment.rest", "keep", "--rest keep");

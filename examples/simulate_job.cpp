@@ -2,6 +2,7 @@
 // A whole job: a scene is simulated, its outputs are written, and what came of it is printed.
 //   simulate_job scene.toml
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "jobs/move/simulate.h"
 

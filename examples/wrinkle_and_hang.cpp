@@ -2,6 +2,7 @@
 // wrinkle_and_hang GARMENT BODY OUT.ply: draws a ridge across a garment, and lets it hang and fall on a body
 // for a second.
 #include "bridge/arrays/gather.h"
+#include "geometry/figure/repair_body.h"
 #include "geometry/fold/wrinkle.h"
 #include "io/mesh/mesh_file.h"
 #include "physics/body/distance_field.h"

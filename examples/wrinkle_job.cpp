@@ -2,6 +2,7 @@
 // A whole job: a ridge is drawn on a garment, the result is written, and the report printed.
 //   wrinkle_job garment.obj wrinkled.ply
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "jobs/chain/wrinkle.h"
 

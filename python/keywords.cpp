@@ -2,6 +2,7 @@
 #include "python/keywords.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "io/base/nearest_word.h"
 #include "io/scene/settings_schema.h"
@@ -148,7 +149,7 @@ void Call::add_pins(const Value& value, const std::string& kind, io::TomlDocumen
   Json sets = is_one ? Json::array({given}) : given;
   for (Json& set : sets) {
     if (kind == "vertices" && !set.is_array()) set = Json::array({set});
-    const std::size_t n = document.root.contains("pins") ? document.root["pins"].size() : 0;
+    const std::size_t n = document.root->contains("pins") ? document.root["pins"].size() : 0;
     io::set_value(document, "pins." + std::to_string(n), Json{{kind, set}}, "--" + value.keyword);
   }
 }
@@ -219,7 +220,7 @@ CalledScene called_scene(py::handle garment, unsigned subcommand, const std::fil
 }
 
 std::string garment_name(const jobs::SceneInput& scene) {
-  const Json garment = scene.settings.root.value("garment", Json::object());
+  const Json garment = scene.settings.root->value("garment", Json::object());
   const std::string mesh = garment.is_object() && garment.contains("mesh") && garment["mesh"].is_string()
                                ? garment["mesh"].get<std::string>()
                                : "garment";

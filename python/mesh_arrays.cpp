@@ -178,8 +178,8 @@ void bind_mesh(py::module_& module) {
       .def_property_readonly("repairs", repairs_of)
       .def_property_readonly("_address",
                              [](HeldMesh& h) {
-                               return h.file.mesh.number_of_vertices()
-                                          ? reinterpret_cast<std::uintptr_t>(&h.file.mesh.point(Vertex(0)))
+                               return h.file.mesh->number_of_vertices()
+                                          ? reinterpret_cast<std::uintptr_t>(&h.file.mesh->point(Vertex(0)))
                                           : 0;
                              })
       .def_property(

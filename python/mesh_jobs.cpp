@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/figure/repair_body.h"
 #include "jobs/body/body.h"
 #include "jobs/mesh/bake.h"
 #include "jobs/mesh/smooth.h"

@@ -41,7 +41,7 @@ py::list told(const std::vector<jobs::Warning>& warnings) {
 
 /// Vertices and faces are counted from 0 without gaps, as arrays want them.
 HeldMesh compact(HeldMesh mesh) {
-  if (mesh.file.mesh.has_garbage()) mesh.file.mesh.collect_garbage();
+  if (mesh.file.mesh->has_garbage()) mesh.file.mesh->collect_garbage();
   return mesh;
 }
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <nlohmann/json.hpp>
+
 #include "io/scene/settings_schema.h"
 #include "jobs/chain/keep.h"
 #include "jobs/rest/drape.h"
@@ -118,7 +120,7 @@ Outcome drape(const py::list& inputs, Call& call) {
   job.over = over_of(inputs, memory);
   if (scene.is_file) job.more_inputs.push_back(py::cast<std::string>(py::str(inputs[0])));
   if (call.has("subdivide") && !job.subdivide)  // "auto" goes before the scene's
-    if (auto& root = job.scene.settings.root; root.contains("garment")) root["garment"].erase("subdivide");
+    if (auto& root = *job.scene.settings.root; root.contains("garment")) root["garment"].erase("subdivide");
   return outcome_of(without_lock(job, call, jobs::drape), job);
 }
 

@@ -2,6 +2,7 @@
 #include "python/values.h"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 namespace furrow::python {
 namespace {

@@ -2,6 +2,7 @@
 #include "studio/drawing.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 namespace furrow::studio {

@@ -13,7 +13,7 @@ std::vector<GalleryItem> gallery(const std::filesystem::path& folder) {
   for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
     if (entry.path().extension() != ".toml") continue;
     const std::string title =
-        jobs::settings_of(entry.path().string(), "", std::nullopt).root.value("title", "");
+        jobs::settings_of(entry.path().string(), "", std::nullopt).root->value("title", "");
     if (!title.empty()) items.push_back({entry.path().stem().string(), title, entry.path()});
   }
   std::ranges::sort(items, {}, &GalleryItem::title);

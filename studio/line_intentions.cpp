@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a page asks of lines.
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "jobs/sketch/sketch_lines.h"
 #include "studio/drawing.h"

@@ -2,6 +2,7 @@
 #include "studio/message.h"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 namespace furrow::studio {
 namespace {

@@ -2,6 +2,7 @@
 #include "studio/session.h"
 
 #include <new>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "jobs/move/give_motion.h"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "studio/worker.h"
 
+#include <nlohmann/json.hpp>
+
 namespace furrow::studio {
 namespace {
 

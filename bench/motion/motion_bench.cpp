@@ -23,6 +23,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/mesh/mesh.h"
 #include "io/scene/fabrics.h"
 #include "physics/motion/simulate.h"
 #include "tests/cases/garment_pair.h"

@@ -4,10 +4,13 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/figure/repair_body.h"
-#include "geometry/mesh/mesh.h"
+#include "geometry/mesh/mesh_fwd.h"
 #include "physics/base/arrays.h"
 #include "physics/cloth/cloth.h"
+
+namespace furrow::geometry {
+struct Body;  // geometry/figure/repair_body.h
+}
 
 namespace furrow::bridge {
 

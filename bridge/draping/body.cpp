@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bridge/arrays/convert.h"
 #include "bridge/arrays/gather.h"
+#include "geometry/figure/repair_body.h"
 
 namespace furrow::bridge {
 

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "geometry/mesh/mesh.h"
+#include "geometry/mesh/mesh_fwd.h"
 #include "physics/body/collider.h"
 #include "physics/pairs/untangle_contours.h"
 #include "physics/rest/settle.h"

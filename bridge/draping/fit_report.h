@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/mesh/mesh.h"
+#include "geometry/mesh/mesh_fwd.h"
 #include "physics/base/arrays.h"
 #include "physics/body/exact_distance.h"
 
@@ -48,12 +48,12 @@ struct FitDistance {
 
 /// A connected part of a garment where a value is over a threshold.
 struct FitZone {
-  double area = 0;                  ///< as worn [m^2]
-  double peak = 0;                  ///< the largest value at a vertex of it
-  geometry::Point centre{0, 0, 0};  ///< its centre of area [m]
-  double height_share = 0;          ///< of the centre, over the body's height: 0 soles, 1 crown
-  std::string side;                 ///< where the centre lies: front, back, left or right of the wearer, or
-                                    ///< around, where it is within 5 cm of the torso's middle
+  double area = 0;                                ///< as worn [m^2]
+  double peak = 0;                                ///< the largest value at a vertex of it
+  geometry::Coordinates<geometry::Point> centre;  ///< its centre of area [m]
+  double height_share = 0;                        ///< of the centre, over the body's height: 0 soles, 1 crown
+  std::string side;  ///< where the centre lies: front, back, left or right of the wearer, or
+                     ///< around, where it is within 5 cm of the torso's middle
 };
 
 /// Where a body comes through a garment.

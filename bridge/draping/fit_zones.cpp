@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "geometry/mesh/mesh.h"
+
 namespace furrow::bridge {
 namespace {
 

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "bridge/arrays/convert.h"
 #include "bridge/arrays/couple_bending.h"
@@ -86,15 +87,17 @@ DrawMoreReport draw_more(Mesh& mesh, physics::SimulateState& state, std::span<co
   report.wrinkle = wrinkle(work, strokes, options.wrinkle, observer);
   const GatherOptions springs = with_lines(options.springs, report.wrinkle.lines, options.wrinkle.first_line);
   physics::Cloth after = gather(work, springs);
-  const std::set<Vertex> held(options.wrinkle.held.begin(), options.wrinkle.held.end());
+  const std::vector<Vertex> pinned(options.wrinkle.held.begin(), options.wrinkle.held.end());
+  const std::set<Vertex> held(pinned.begin(), pinned.end());
+  const auto& changed = report.wrinkle.insertion.changed_faces;
   report.momentum_before = momentum(before.particles, held);
-  keep_momentum(work, after.particles, report.momentum_before, report.wrinkle.insertion.changed_faces, held);
+  keep_momentum(work, after.particles, report.momentum_before,
+                std::vector<Face>(changed.begin(), changed.end()), held);
   report.momentum_after = momentum(after.particles, held);
   report.mean_strain = physics::strain_statistics(before).mean;
 
-  const std::vector<Vec3> jump =
-      physics::force_jump(coupled(before, mesh, options.springs, options.wrinkle.held),
-                          coupled(after, work, springs, options.wrinkle.held));
+  const std::vector<Vec3> jump = physics::force_jump(coupled(before, mesh, options.springs, pinned),
+                                                     coupled(after, work, springs, pinned));
   physics::carry_memory(before, after, state);
   for (const Vec3& f : jump) report.largest_jump = std::max(report.largest_jump, f.norm());
   physics::add(state.compensation, jump, state.time);

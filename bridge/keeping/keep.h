@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/mesh/mesh.h"
+#include "geometry/mesh/mesh_fwd.h"
 #include "physics/body/collider.h"
 #include "physics/motion/simulate.h"
 #include "physics/rest/certificate.h"

@@ -30,13 +30,14 @@ struct DisplacedReport {
 
 /// The second pass: steep flanks stretch the band, so edges longer than 1.5 of the sizing in the displaced
 /// shape are split, Delaunay flips made in that shape, and new vertices moved to better places, until nothing
-/// is too long but edges below 0.2 of the sizing undisplaced: where heights jump no split helps. Last, edges are flipped to lie along the folds (tighten_displaced.h). A flip
-/// that meets more than 40 degrees between its faces, or would leave a face with a height below 1 % of its
-/// side, is refused. `mesh` is what refine_band left, undisplaced, and stays so; `given` the mesh before
-/// that; `displaced` holds the displaced place of every vertex and gets those of the new ones. `band` is kept
-/// up to date: chains, places, in_band, split_edges, changed_faces and counts. Throws std::invalid_argument,
-/// all unchanged, unless `displaced` and `band` belong to `mesh`; ContentError, all of no use then, where
-/// heights jump so much that four times the vertices and 5,000 do not do. O(n log n) a round.
+/// is too long but edges below 0.2 of the sizing undisplaced: where heights jump no split helps. Last, edges
+/// are flipped to lie along the folds (tighten_displaced.h). A flip that meets more than 40 degrees between
+/// its faces, or would leave a face with a height below 1 % of its side, is refused. `mesh` is what
+/// refine_band left, undisplaced, and stays so; `given` the mesh before that; `displaced` holds the displaced
+/// place of every vertex and gets those of the new ones. `band` is kept up to date: chains, places, in_band,
+/// split_edges, changed_faces and counts. Throws std::invalid_argument, all unchanged, unless `displaced` and
+/// `band` belong to `mesh`; ContentError, all of no use then, where heights jump so much that four times the
+/// vertices and 5,000 do not do. O(n log n) a round.
 DisplacedReport refine_displaced(Mesh& mesh, const Mesh& given, std::span<const FoldCurve> curves,
                                  std::vector<Point>& displaced, const Displacing& displacing,
                                  BandReport& band, const BandOptions& options = {});

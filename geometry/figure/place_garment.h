@@ -26,8 +26,8 @@ struct PlacedGarment {
 /// Each goes with the trunk, an arm or a leg of find_skeleton(), or between two of them: turned with the
 /// limb, as far along as on the old one, and as far off the skin as it was. Left stays left. The garment is
 /// not changed: its rest shape is that of its size. Throws std::invalid_argument for a garment without
-/// vertices or with a place that is not finite; ContentError for two bodies that face opposite ways, and for a
-/// sleeve without an arm.
+/// vertices or with a place that is not finite; ContentError for two bodies that face opposite ways, and for
+/// a sleeve without an arm.
 ///
 /// \details Which part a vertex goes with is known by what lies nearest on the old body, blended over some 5
 /// cm of cloth. Above the armpits breadth and depth are scaled by those of shoulders and neck.

@@ -86,11 +86,11 @@ std::optional<double> crest_height(const Mesh& mesh, const Raised& raised, const
 }
 
 /// The chain of every curve; of a closed one with its first vertex again at the end.
-std::vector<std::vector<Vertex>> chains_of(const std::vector<BandChain>& chains, int line) {
-  std::vector<std::vector<Vertex>> result;
+std::vector<std::vector<Index<Vertex>>> chains_of(const std::vector<BandChain>& chains, int line) {
+  std::vector<std::vector<Index<Vertex>>> result;
   for (const BandChain& chain : chains) {
     if (chain.line != line) continue;
-    result.push_back(chain.vertices);
+    result.emplace_back(chain.vertices.begin(), chain.vertices.end());
     if (chain.closed && !chain.vertices.empty()) result.back().push_back(chain.vertices.front());
   }
   return result;
@@ -101,7 +101,7 @@ void note_band(const BandReport& band, WrinkleReport& report) {
   report.insertion.flipped = band.flipped;
   report.insertion.snapped = band.snapped.size();
   report.insertion.split_edges = band.split_edges;
-  report.insertion.changed_faces = band.changed_faces;
+  report.insertion.changed_faces.assign(band.changed_faces.begin(), band.changed_faces.end());
   report.insertion.min_angle_deg = band.min_angle_deg;
   for (const BandChain& chain : band.chains)
     report.insertion.max_deviation = std::max(report.insertion.max_deviation, chain.lateral);
@@ -227,7 +227,8 @@ WrinkleReport fold_lines(Mesh& mesh, std::span<const Stroke> strokes, const Wrin
   report.fold = FoldReport{};
   report.fold->angle_defect_before = angle_defect(work);
   const Folds folds = folds_of(work, strokes, options, report);
-  const BandOptions refining{options.detail, 0.003, options.insertion.may_flip, options.held};
+  const BandOptions refining{
+      options.detail, 0.003, options.insertion.may_flip, {options.held.begin(), options.held.end()}};
   require_bearable(folds, refining);
   BandReport band = refine_band(work, folds.curves, refining);
   if (observer) {
@@ -238,7 +239,7 @@ WrinkleReport fold_lines(Mesh& mesh, std::span<const Stroke> strokes, const Wrin
   note_band(band, report);
   report.lines = lines_of(strokes, folds, band.chains, options.first_line);
   note_paths(folds, options.first_line, report.lines);
-  report.undisplaced = raised.base;
+  report.undisplaced.assign(raised.base.begin(), raised.base.end());
   complete_springs(work, band.changed_faces);
 
   const LineShapes shapes = shapes_of(report.lines, options.first_line);

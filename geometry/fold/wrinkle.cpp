@@ -41,7 +41,7 @@ void check_all(const Mesh& mesh, std::span<const Stroke> strokes, const WrinkleO
     if (const std::string fault = shape_fault(stroke); !fault.empty())
       throw ContentError("stroke \"" + stroke.name + "\": " + fault);
   check_mesh(mesh, "wrinkle");
-  require_vertices(mesh, options.held, "wrinkle: held");
+  require_vertices(mesh, std::vector<Vertex>(options.held.begin(), options.held.end()), "wrinkle: held");
 }
 
 struct Moves {
@@ -122,9 +122,12 @@ std::vector<Insertion> insert_lines(Mesh& mesh, std::span<const Stroke> strokes,
       continue;
     }
     report.insertion += one.report;
-    report.lines.push_back({stroke.name, stroke.height, 0, 0, 0, one.line.chains, stroke.width,
-                            stroke.sharpness.value_or(usual_sharpness), stroke.press});
-    report.lines.back().path = one.path;
+    WrinkledLine& drawn = report.lines.emplace_back();
+    drawn.name = stroke.name, drawn.height = stroke.height, drawn.width = stroke.width;
+    drawn.sharpness = stroke.sharpness.value_or(usual_sharpness), drawn.press = stroke.press;
+    for (const std::vector<Vertex>& chain : one.line.chains)
+      drawn.chains.emplace_back(chain.begin(), chain.end());
+    for (const StrokeSegment& segment : one.path) drawn.path.push_back({segment[0], segment[1]});
     lines.push_back(std::move(one));
   }
   faults.raise();
@@ -157,13 +160,14 @@ WrinkleReport wrinkle(Mesh& mesh, std::span<const Stroke> strokes, const Wrinkle
   Mesh work = mesh;
   WrinkleReport report = begin_wrinkling(work, options);
   const std::vector<Insertion> lines = insert_lines(work, strokes, options, report);
-  rebuild_bending_springs(work, report.insertion.changed_faces);
+  const auto& changed = report.insertion.changed_faces;
+  rebuild_bending_springs(work, std::vector<Face>(changed.begin(), changed.end()));
   ensure_rest_angles(work);
   report.warnings = warnings_of_coarse(work, lines, strokes);
   tell(Stage::inserted, work);
 
   const RestSnapshot before = take_rest_snapshot(work);
-  report.undisplaced = before.positions;
+  report.undisplaced.assign(before.positions.begin(), before.positions.end());
   const Moves moves = displacements(work, lines, strokes, held);
   const std::vector<double> widths = line_shapes(strokes, options.first_line).widths;
   const std::vector<double> base = heights_from(work, options.first_line, strokes.size(), widths);

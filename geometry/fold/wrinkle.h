@@ -21,9 +21,9 @@ struct WrinkleOptions {
   TaubinOptions smoothing;
   SmoothingRegion region = SmoothingRegion::two_ring;
   RestRule rest = RestRule::drawn;
-  double density = 0.15;     ///< rho [kg/m^2]; > 0
-  std::vector<Vertex> held;  ///< vertices of the mesh given that keep their places, as pins do
-  int first_line = 0;        ///< id of the first stroke's line; above those that the mesh has
+  double density = 0.15;            ///< rho [kg/m^2]; > 0
+  std::vector<Index<Vertex>> held;  ///< vertices of the mesh given that keep their places, as pins do
+  int first_line = 0;               ///< id of the first stroke's line; above those that the mesh has
   /// r_avg of the garment before its first line [m]; > 0; none: of the mesh given. For a second round of
   /// lines.
   std::optional<double> mean_structural_length, mean_bending_length;
@@ -39,16 +39,16 @@ struct WrinkledLine {
   double height = 0;  ///< k as asked for [m]
   /// line_heights() before displacement: of the curvature of the cloth, or of earlier lines [m].
   double base_height = 0;
-  double drawn_height = 0;                  ///< line_heights() after displacement, less base_height [m]
-  double smoothed_height = 0;               ///< after smoothing, less base_height [m]
-  std::vector<std::vector<Vertex>> chains;  ///< its vertices, a list for each connected part
-  std::optional<double> width = {};         ///< as asked for [m], as the next two
+  double drawn_height = 0;     ///< line_heights() after displacement, less base_height [m]
+  double smoothed_height = 0;  ///< after smoothing, less base_height [m]
+  std::vector<std::vector<Index<Vertex>>> chains;  ///< its vertices, a list for each connected part
+  std::optional<double> width = {};                ///< as asked for [m], as the next two
   double sharpness = 0.5, press = 1;
   /// Rule fold: mean height over the surface before, along its normals, of the vertices where the fold is
   /// full, scaled to `height` where that varies [m].
   std::optional<double> crest_height = {};
   /// The stroke as it lies on the cloth before it is raised, as segments; of rule fold smoothed [m].
-  std::vector<std::array<Point, 2>> path = {};
+  std::vector<std::array<Coordinates<Point>, 2>> path = {};
 };
 
 /// What rule fold did.
@@ -73,7 +73,8 @@ struct WrinkleReport {
          mean_bending_length = 0;     ///< r_avg of the mesh before any line [m] (S1.7)
   std::vector<std::string> warnings;  ///< lines for whose width the mesh is too coarse, and more
   std::optional<FoldReport> fold;     ///< of rule fold
-  std::vector<Point> undisplaced;     ///< where each vertex would lie without the lines' heights [m]
+  std::vector<Coordinates<Point>>
+      undisplaced;  ///< where each vertex would lie without the lines' heights [m]
 };
 
 /// The stages of method S1.21 that geometry makes.

@@ -1,10 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <vector>
+
 #include "geometry/insert/insertion.h"
 #include "geometry/stroke/stroke.h"
 #include "geometry/stroke/stroke_path.h"
 
 namespace furrow::geometry {
+
+struct LineVertex {
+  Vertex vertex;
+  Vector normal;            ///< unit; the direction of the displacement
+  double stroke_parameter;  ///< where along the stroke, by chord length [-]; [0, 1]
+};
+
+/// A drawn line as a chain of edges.
+struct InsertedLine {
+  int id = -1;
+  std::vector<std::vector<Vertex>> chains;  ///< one a sub-stroke, in order; closed: first == last
+  std::vector<LineVertex> vertices;         ///< each vertex once, by first appearance
+};
 
 struct Insertion {
   InsertedLine line;

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/mesh/mesh.h"
+#include "geometry/mesh/mesh_fwd.h"
 
 /// Options and reports of the operations that insert vertices into faces (method S1.2, S1.3: Algorithm 2).
 namespace furrow::geometry {
@@ -50,28 +50,15 @@ struct InsertionOptions {
 /// Throws std::invalid_argument that names the option and its value.
 void check(const InsertionOptions& options);
 
-struct LineVertex {
-  Vertex vertex;
-  Vector normal;            ///< unit; the direction of the displacement
-  double stroke_parameter;  ///< where along the stroke, by chord length [-]; [0, 1]
-};
-
-/// A drawn line as a chain of edges.
-struct InsertedLine {
-  int id = -1;
-  std::vector<std::vector<Vertex>> chains;  ///< one a sub-stroke, in order; closed: first == last
-  std::vector<LineVertex> vertices;         ///< each vertex once, by first appearance
-};
-
 /// Two vertices follow each other in a chain, but no edge joins them (paper rule only).
 struct MissingLineEdge {
-  Vertex from, to;
+  Index<Vertex> from, to;
   Refusal reason;
 };
 
 /// An edge was split at a crossing: chains of earlier lines that hold from, to now go from, vertex, to.
 struct SplitEdge {
-  Vertex from, to, vertex;
+  Index<Vertex> from, to, vertex;
 };
 
 struct InsertionReport {
@@ -89,9 +76,9 @@ struct InsertionReport {
   std::vector<SplitEdge> split_edges;
   std::vector<MissingLineEdge> missing_edges;
   std::vector<std::string> warnings;
-  std::vector<Face> changed_faces;  ///< new or other corners than before; ascending
-  double min_angle_deg = 0;         ///< rest metric, over changed_faces [degrees]
-  double max_deviation = 0;         ///< largest distance of a sample on cloth from the line [m]
+  std::vector<Index<Face>> changed_faces;  ///< new or other corners than before; ascending
+  double min_angle_deg = 0;                ///< rest metric, over changed_faces [degrees]
+  double max_deviation = 0;                ///< largest distance of a sample on cloth from the line [m]
 };
 
 /// Adds another line's report: counts and lists grow, the smaller angle and the larger deviation stay.

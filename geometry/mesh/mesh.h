@@ -3,18 +3,12 @@
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 
-/// The half-edge structure that every operation of this folder works on, and the only names for CGAL's types.
-/// Positions are in metres; faces are triangles and wind counter-clockwise seen from outside.
-namespace furrow::geometry {
+#include "geometry/mesh/mesh_fwd.h"
 
-using Kernel = CGAL::Simple_cartesian<double>;
-using Point = Kernel::Point_3;    ///< [m]
-using Vector = Kernel::Vector_3;  ///< not zero by default: initialise it
-using Mesh = CGAL::Surface_mesh<Point>;
-using Vertex = Mesh::Vertex_index;
-using Halfedge = Mesh::Halfedge_index;
-using Edge = Mesh::Edge_index;
-using Face = Mesh::Face_index;
+/// The half-edge structure that every operation of this folder works on. mesh_fwd.h has its names and those
+/// of its parts, the only ones for CGAL's types. Positions are in metres; faces are triangles and wind
+/// counter-clockwise seen from outside.
+namespace furrow::geometry {
 
 template <class Key, class T>
 using Map = Mesh::Property_map<Key, T>;

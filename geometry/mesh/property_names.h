@@ -21,9 +21,8 @@ struct PropertyName {
 };
 
 inline constexpr double unset_value = std::numeric_limits<double>::quiet_NaN();
-using TextureCoordinate = std::array<double, 2>;  ///< (u, v); NaN = none
-using Color = std::array<double, 4>;              ///< red, green, blue, alpha in [0, 1]
-using RestPosition = std::array<double, 3>;       ///< x, y, z [m]; NaN = not known
+using Color = std::array<double, 4>;         ///< red, green, blue, alpha in [0, 1]
+using RestPosition = std::array<double, 3>;  ///< x, y, z [m]; NaN = not known
 
 /// The maps themselves: find_map(mesh, attribute::rest_length).
 namespace attribute {

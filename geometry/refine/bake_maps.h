@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <array>
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <vector>
 
-#include "geometry/mesh/mesh.h"
+#include "geometry/mesh/mesh_fwd.h"
 
 namespace furrow::geometry {
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "geometry/mesh/mesh.h"
+#include "geometry/mesh/mesh_fwd.h"
 
 namespace furrow::geometry {
 

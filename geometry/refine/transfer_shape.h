@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include "geometry/mesh/mesh.h"
+#include <cstddef>
+
+#include "geometry/mesh/mesh_fwd.h"
 
 namespace furrow::geometry {
 

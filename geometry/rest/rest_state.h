@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "geometry/mesh/mesh.h"
+#include "geometry/mesh/mesh_fwd.h"
 
 namespace furrow::geometry {
 

@@ -24,10 +24,10 @@ std::string name_of(const Stroke& stroke) {
 void check_content(const Stroke& stroke) {
   if (stroke.points.empty()) throw ContentError(name_of(stroke) + " has no points");
   for (std::size_t i = 0; i < stroke.points.size(); ++i) {
-    const Point& p = stroke.points[i];
+    const Point p = stroke.points[i];
     if (!std::isfinite(p.x() + p.y() + p.z())) refuse(stroke, i, "its coordinates are not finite numbers");
   }
-  if (stroke.direction && !(stroke.direction->squared_length() > 0)) {
+  if (stroke.direction && !(Vector(*stroke.direction).squared_length() > 0)) {
     throw ContentError(name_of(stroke) + ": its direction has no length");
   }
   for (std::size_t i = 0; i < stroke.breaks.size(); ++i) {
@@ -40,13 +40,14 @@ void check_content(const Stroke& stroke) {
 
 /// Positions of the points along the stroke by chord length, from 0 to 1.
 std::vector<double> parameters_of(const Stroke& stroke) {
-  const std::size_t n = stroke.points.size();
+  const std::vector<Point> points(stroke.points.begin(), stroke.points.end());
+  const std::size_t n = points.size();
   std::vector<double> s(n, 0.0);
   for (std::size_t i = 1; i < n; ++i) {
-    s[i] = s[i - 1] + std::sqrt(CGAL::squared_distance(stroke.points[i - 1], stroke.points[i]));
+    s[i] = s[i - 1] + std::sqrt(CGAL::squared_distance(points[i - 1], points[i]));
   }
   double total = s.back();
-  if (stroke.closed) total += std::sqrt(CGAL::squared_distance(stroke.points.back(), stroke.points.front()));
+  if (stroke.closed) total += std::sqrt(CGAL::squared_distance(points.back(), points.front()));
   for (double& value : s) value = total > 0 ? value / total : 0;
   return s;
 }
@@ -58,7 +59,7 @@ std::vector<StrokeHit> project(const SurfaceProjector& projector, const StrokeTr
   for (std::size_t i = 0; i < points.size(); ++i) {
     SurfaceHit hit;
     if (stroke.direction) {
-      const auto first = projector.first_hit(points[i], normalized(*stroke.direction));
+      const auto first = projector.first_hit(points[i], normalized(Vector(*stroke.direction)));
       if (!first)
         refuse(stroke, i, "its ray misses the surface; move the point or drop the stroke's direction");
       hit = *first;
@@ -80,18 +81,19 @@ std::vector<StrokeHit> project(const SurfaceProjector& projector, const StrokeTr
 std::vector<Point> nudged(const Mesh& mesh, const Stroke& stroke, const std::vector<StrokeHit>& hits,
                           double distance) {
   const std::size_t n = hits.size();
+  const std::vector<Point> points(stroke.points.begin(), stroke.points.end());
   std::vector<Point> result;
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t before = i > 0 ? i - 1 : (stroke.closed ? n - 1 : 0);
     const std::size_t after = i + 1 < n ? i + 1 : (stroke.closed ? 0 : n - 1);
     const Vector normal = normalized(area_normal_of(mesh, hits[i].point.face));
-    Vector tangent = stroke.points[after] - stroke.points[before];
+    Vector tangent = points[after] - points[before];
     tangent = normalized(tangent - (tangent * normal) * normal);
     if (tangent.squared_length() == 0) {
       tangent = normalized(mesh.point(corners_of(mesh, hits[i].point.face)[0]) - hits[i].position);
     }
     const Vector aside = CGAL::cross_product(normal, tangent);
-    result.push_back(stroke.points[i] + distance * (aside + 0.37 * tangent));
+    result.push_back(points[i] + distance * (aside + 0.37 * tangent));
   }
   return result;
 }
@@ -144,8 +146,9 @@ TracedStroke trace_stroke(const Mesh& mesh, const SurfaceProjector& projector, c
   TracedStroke traced;
   for (double shift : {0.0, 1e-3, 1.7e-3, 2.9e-3}) {
     StrokeTracer tracer(mesh, projector, options);
-    const auto points =
-        shift == 0 ? stroke.points : nudged(mesh, stroke, original, shift * options.mean_edge);
+    const std::vector<Point> points = shift == 0
+                                          ? std::vector<Point>(stroke.points.begin(), stroke.points.end())
+                                          : nudged(mesh, stroke, original, shift * options.mean_edge);
     const double slack = shift * 2 * options.mean_edge;
     const auto hits = project(projector, tracer, stroke, points, parameters, options.max_distance + slack);
     if (shift == 0) original = hits;

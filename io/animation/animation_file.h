@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "geometry/mesh/mesh.h"
+#include "geometry/mesh/mesh_fwd.h"
 #include "io/mesh/mesh_file.h"
 #include "physics/base/arrays.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/mesh/mesh.h"
+#include "geometry/mesh/mesh_fwd.h"
 
 namespace furrow::io {
 
@@ -27,7 +27,8 @@ struct RepairReport {
 
 /// An OBJ `l` element, or a chain of two-point elements that share vertices.
 struct Polyline {
-  std::vector<geometry::Point> points;  ///< [m]; the first is not repeated at the end of a closed one
+  std::vector<geometry::Coordinates<geometry::Point>>
+      points;                         ///< [m]; the first is not repeated at the end of a closed one
   std::vector<std::size_t> vertices;  ///< the same points as vertex indices of the mesh; empty = not its own
   bool closed = false;
 };
@@ -36,7 +37,7 @@ struct GltfSource;
 
 /// A mesh and what its file says beside it. Vertices are in the file's order; positions in metres, y up.
 struct MeshFile {
-  geometry::Mesh mesh;                          ///< maps as in geometry/mesh/property_names.h
+  geometry::Owned<geometry::Mesh> mesh;         ///< maps as in geometry/mesh/property_names.h
   std::vector<std::string> group_names;         ///< f:group
   std::vector<std::string> material_names;      ///< f:material
   std::vector<std::string> material_libraries;  ///< OBJ mtllib

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "geometry/mesh/errors.h"
+#include "geometry/mesh/mesh.h"
 #include "io/base/number_text.h"
 #include "io/base/text_scanner.h"
 #include "io/mesh/file_frame.h"

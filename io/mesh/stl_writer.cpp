@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <ostream>
 
+#include "geometry/mesh/mesh.h"
 #include "io/base/byte_order.h"
 #include "io/base/own_mark.h"
 #include "io/mesh/mesh_writers.h"

@@ -58,7 +58,7 @@ MeshFile welded(const MeshFile& file, const std::string& name) {
   result.polylines.clear();
   result.warnings.clear();
   result.repairs = {};
-  result.repairs.merged_vertices = file.mesh.number_of_vertices() - soup.points.size();
+  result.repairs.merged_vertices = file.mesh->number_of_vertices() - soup.points.size();
   set_mesh(result, soup, name);
   return result;
 }

@@ -27,7 +27,8 @@ double dot_width(const geometry::Mesh& mesh, const std::set<geometry::Edge>& edg
 
 }  // namespace
 
-RenderScene preview_scene(const geometry::Mesh& inserted, const std::vector<geometry::Face>& changed,
+RenderScene preview_scene(const geometry::Mesh& inserted,
+                          const std::vector<geometry::Index<geometry::Face>>& changed,
                           std::size_t old_vertices, const std::vector<double>& heights,
                           const PreviewColours& colours) {
   using namespace geometry;

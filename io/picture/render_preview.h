@@ -20,7 +20,8 @@ struct PreviewColours {
 /// `inserted`: the mesh at Stage::inserted; `changed`: InsertionReport::changed_faces; `old_vertices`: how
 /// many vertices the mesh had before (a new one has an index from there on); `heights`: of the lines by id
 /// [m]. Throws what render_mesh_from and render_lines_from throw.
-RenderScene preview_scene(const geometry::Mesh& inserted, const std::vector<geometry::Face>& changed,
+RenderScene preview_scene(const geometry::Mesh& inserted,
+                          const std::vector<geometry::Index<geometry::Face>>& changed,
                           std::size_t old_vertices, const std::vector<double>& heights,
                           const PreviewColours& colours = {});
 

@@ -87,22 +87,22 @@ RenderMesh render_mesh_from(const Mesh& mesh, Style style, std::shared_ptr<const
   return result;
 }
 
-void mark_faces(RenderMesh& mesh, std::span<const Face> faces, const Colour& colour) {
-  for (Face f : faces)
+void mark_faces(RenderMesh& mesh, std::span<const geometry::Index<Face>> faces, const Colour& colour) {
+  for (const auto f : faces)
     if (f.idx() >= mesh.triangles.size())
       throw std::invalid_argument("mark_faces: face " + std::to_string(f.idx()) + " of " +
                                   std::to_string(mesh.triangles.size()));
   if (faces.empty()) return;
   if (!mesh.triangle_colours.empty()) {  // which go before all other colours
-    for (Face f : faces) mesh.triangle_colours[f.idx()] = colour;
+    for (const auto f : faces) mesh.triangle_colours[f.idx()] = colour;
     return;
   }
   if (mesh.texture)
-    for (Face f : faces)
+    for (const auto f : faces)
       mesh.texture_coordinates[f.idx()].fill(
           {NAN, NAN});  // such a triangle shows its colour, not the texture
   if (mesh.vertex_colours.empty()) mesh.vertex_colours.assign(mesh.vertices.size(), mesh.colour);
-  for (Face f : faces)
+  for (const auto f : faces)
     for (int& corner : mesh.triangles[f.idx()]) {
       mesh.vertices.push_back(Position(mesh.vertices[std::size_t(corner)]));
       mesh.vertex_colours.push_back(colour);

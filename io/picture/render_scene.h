@@ -28,7 +28,8 @@ RenderMesh render_mesh_from(const geometry::Mesh& mesh, Style style = Style::clo
 
 /// Gives faces of a mesh that was made by render_mesh_from() of one without removed faces a colour of their
 /// own, with sharp edges. Throws std::invalid_argument, nothing changed, for an index out of range.
-void mark_faces(RenderMesh& mesh, std::span<const geometry::Face> faces, const Colour& colour = mark_colour);
+void mark_faces(RenderMesh& mesh, std::span<const geometry::Index<geometry::Face>> faces,
+                const Colour& colour = mark_colour);
 
 /// The lines that a mesh carries, one piece an edge, ordered by edge; empty if the mesh has no such maps.
 /// `heights[id]` is the height of line `id`, of which only the sign is used [m]. Throws std::invalid_argument

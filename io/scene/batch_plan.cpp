@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
 
@@ -232,7 +233,7 @@ std::vector<std::string> differing(const std::vector<BatchRow>& rows) {
 }
 
 std::string word_of(const TomlDocument& document, const char* key, std::string otherwise) {
-  if (!document.root.contains(key)) return otherwise;
+  if (!document.root->contains(key)) return otherwise;
   const Json& value = document.root[key];
   if (!value.is_string()) fail_at(document, key, "must be a text");
   return text_of(document, key, value);
@@ -250,7 +251,7 @@ void check_names(const Json& table, const std::string& where) {
 /// All but the cases.
 BatchPlan plan_of(const TomlDocument& document, const std::filesystem::path& path) {
   check_names(document.root, document.name);
-  for (const auto& [key, value] : document.root.items())
+  for (const auto& [key, value] : document.root->items())
     if (!has(plan_keys, key))
       fail_at(document, key, "is no key of a plan; did you mean '" + nearest_word(key, plan_keys) + "'?");
   BatchPlan plan;
@@ -262,7 +263,7 @@ BatchPlan plan_of(const TomlDocument& document, const std::filesystem::path& pat
   without_control(folder.string(), "the folder of the plan");
   plan.output = (folder / word_of(document, "output", path.stem().string() + "-results")).lexically_normal();
   plan.mesh = word_of(document, "mesh", plan.command == "fit" ? "" : "ply");
-  if (document.root.contains("picture")) {
+  if (document.root->contains("picture")) {
     if (!document.root["picture"].is_boolean()) fail_at(document, "picture", "must be true or false");
     plan.picture = document.root["picture"].get<bool>();
   }
@@ -272,7 +273,7 @@ BatchPlan plan_of(const TomlDocument& document, const std::filesystem::path& pat
   plan.report = {"outcome"};
   if (plan.command == "drape")
     plan.report = {"outcome", "residual_force", "fit.strain.p99", "crossings.pairs"};
-  if (document.root.contains("report")) {
+  if (document.root->contains("report")) {
     plan.report.clear();
     for (const Json& one : document.root["report"]) plan.report.push_back(text_of(document, "report", one));
   }
@@ -294,13 +295,13 @@ BatchPlan read_batch_plan(const std::filesystem::path& path, const std::string& 
   const TomlDocument document = read_toml(path);
   BatchPlan plan = plan_of(document, path);
   BatchRow options;
-  if (document.root.contains("options")) {
+  if (document.root->contains("options")) {
     if (!document.root["options"].is_object()) fail_at(document, "options", "must be a table");
     for (const auto& [column, value] : document.root["options"].items())
       for (BatchValue& v : values_of(document, "options." + column, column, value))
         options.push_back(std::move(v));
   }
-  if (!document.root.contains("cases"))
+  if (!document.root->contains("cases"))
     throw geometry::ContentError(document.name + ": there is no [cases]; name what to try, or a CSV file");
   const Json& cases = document.root["cases"];
   const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/scene/equivalent_flags.h"
 
+#include <nlohmann/json.hpp>
+
 #include "io/scene/settings_schema.h"
 
 namespace furrow::io {

@@ -2,6 +2,7 @@
 #include "io/scene/garment_list.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <numeric>
 
 #include "geometry/mesh/errors.h"
@@ -55,8 +56,8 @@ void check_list(const TomlDocument& document) {
 }  // namespace
 
 std::vector<TomlDocument> scenes_by_garment(const TomlDocument& document) {
-  const auto list = document.root.find("garment");
-  if (list == document.root.end() || !list->is_array()) return {document};
+  const auto list = document.root->find("garment");
+  if (list == document.root->end() || !list->is_array()) return {document};
   check_list(document);
   std::vector<std::size_t> order(list->size());
   std::iota(order.begin(), order.end(), 0);

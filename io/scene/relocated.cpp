@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/scene/relocated.h"
 
+#include <nlohmann/json.hpp>
+
 #include "io/scene/settings_schema.h"
 
 namespace furrow::io {
@@ -8,7 +10,7 @@ namespace furrow::io {
 Json relocated(const TomlDocument& document, const std::filesystem::path& folder,
                const std::filesystem::path& target) {
   namespace fs = std::filesystem;
-  Json root = document.root;
+  Json root = *document.root;
   const fs::path here = fs::current_path();
   const auto move = [&](Json& table, const std::string& key, const std::string& path) {
     if (!table.is_object() || !table.contains(key) || table[key] == "-" || table[key] == "") return;

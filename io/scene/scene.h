@@ -2,7 +2,7 @@
 #pragma once
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,9 +16,12 @@ namespace furrow::io {
 
 using Json = nlohmann::ordered_json;
 
+/// A table without members.
+geometry::Owned<Json> empty_table();
+
 /// Settings as a tree, and where each came from. A path joins keys and indices with dots: "pins.0.box".
 struct TomlDocument {
-  Json root = nlohmann::ordered_json::object();
+  geometry::Owned<Json> root = empty_table();
   std::map<std::string, std::string> where;  ///< by path: "scene.toml:12:5", or the flag that set it
   std::string name;                          ///< of the file, for messages
 

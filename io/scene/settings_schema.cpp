@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/scene/settings_schema.h"
 
+#include <nlohmann/json.hpp>
 #include <regex>
 #include <tuple>
 
@@ -666,7 +667,7 @@ std::string tables_of_key(std::string_view key) {
 std::vector<std::string> settings_without_use(const TomlDocument& document, unsigned subcommand) {
   std::vector<std::string> plain, listed;
   for (const SettingTable& table : setting_tables()) {
-    if (!document.root.contains(table.name) || document.root[table.name].empty()) continue;
+    if (!document.root->contains(table.name) || document.root[table.name].empty()) continue;
     const Json& node = document.root[table.name];
     bool is_used = false;
     std::vector<std::string> idle;

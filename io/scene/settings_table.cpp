@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "geometry/mesh/errors.h"
@@ -14,7 +15,7 @@ namespace {
 
 /// Follows a path that exists.
 const Json& node_at(const TomlDocument& document, const std::string& path) {
-  const Json* at = &document.root;
+  const Json* at = &*document.root;
   std::istringstream keys(path);
   for (std::string key; std::getline(keys, key, '.');)
     at = at->is_array() ? &(*at)[std::stoul(key)] : &at->at(key);

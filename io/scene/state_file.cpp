@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <sstream>
@@ -195,7 +196,7 @@ void list_state(const Fields& field, State& saved) {
   field("pins", saved.pins);
   field("lines_drawn", saved.lines_drawn);
   field("contact_gap", saved.contact_gap);
-  field("scene", saved.scene);
+  field("scene", *saved.scene);
   field("integrator", saved.integrator, saved.integrator.has_value());
   field("field_tolerance", saved.field_tolerance, saved.field_tolerance > 0);
   field("contact_stiffness", s.steps.contact_stiffness, s.steps.contact_stiffness > 0);
@@ -225,8 +226,8 @@ SavedState from_json(const Json& json, std::size_t vertices) {
     throw std::invalid_argument("contact_gap is not in [0, 1) m");
   if (!(saved.field_tolerance >= 0 && saved.field_tolerance < 1))
     throw std::invalid_argument("field_tolerance is not in [0, 1) m");
-  if (!saved.scene.is_object()) throw std::invalid_argument("its scene is no table");
-  saved.scene.erase("output");  // a state has none: a stranger's would write where nobody said
+  if (!saved.scene->is_object()) throw std::invalid_argument("its scene is no table");
+  saved.scene->erase("output");  // a state has none: a stranger's would write where nobody said
   return saved;
 }
 
@@ -384,7 +385,7 @@ SavedState parse_state(const std::string& bytes, const std::string& name) {
   if (!find_wrinkle_record(file)) refuse("the comment 'furrow wrinkle' is missing");
   SavedState state;
   try {
-    const std::size_t vertices = file.mesh.number_of_vertices();
+    const std::size_t vertices = file.mesh->number_of_vertices();
     const std::string text = comment->substr(std::string(prefix).size());
     if (is_nested_too_deep(text)) refuse("it is " + too_deep_text());
     state = from_json(Json::parse(text), vertices);

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <filesystem>
-#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "io/mesh/mesh_file.h"
+#include "io/scene/scene.h"
 #include "physics/motion/simulate.h"
 
 namespace furrow::io {
@@ -12,9 +15,9 @@ namespace furrow::io {
 struct SavedState {
   MeshFile file;  ///< the garment as it is now, with attribute::velocity, attribute::mass and rest lengths
   physics::SimulateState simulation;
-  nlohmann::ordered_json scene = nlohmann::ordered_json::object();  ///< its settings (docs/scenes.md); paths
-                                                                    ///< relative to the state's folder
-  std::vector<std::vector<int>> pins;  ///< the vertices of each of the scene's pins
+  geometry::Owned<Json> scene = empty_table();  ///< its settings (docs/scenes.md); paths relative to the
+                                                ///< state's folder
+  std::vector<std::vector<int>> pins;           ///< the vertices of each of the scene's pins
   std::string body;     ///< what the contact memory is about (WorldBody::fingerprint); "" without
   int lines_drawn = 0;  ///< rounds of the scene's lines that are in the garment already
   /// At which the cloth has rested on the body so far [m]; 0: on none yet. A line's short edges do not lower

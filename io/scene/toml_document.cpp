@@ -5,13 +5,17 @@
 #include <cctype>
 #include <cmath>
 #include <cstring>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 
 #include "geometry/mesh/errors.h"
+#include "geometry/mesh/owned_members.h"
 #include "io/base/bytes_file.h"
 #include "io/base/nesting.h"
 #include "io/scene/scene.h"
+
+template class furrow::geometry::Owned<furrow::io::Json>;
 
 namespace furrow::io {
 namespace {
@@ -145,9 +149,11 @@ TomlDocument read_toml(const std::filesystem::path& path) {
   return parse_toml(read_text(path), path.string());
 }
 
+geometry::Owned<Json> empty_table() { return Json::object(); }
+
 TomlDocument document_of(Json root, const std::string& name) {
   TomlDocument document{std::move(root), {}, name};
-  const Json flat = document.root.flatten();
+  const Json flat = document.root->flatten();
   for (const auto& [pointer, item] : flat.items()) {  // "/pins/0/loop"
     std::string path = pointer.empty() ? "" : pointer.substr(1);
     std::replace(path.begin(), path.end(), '/', '.');
@@ -158,7 +164,7 @@ TomlDocument document_of(Json root, const std::string& name) {
 }
 
 void make_list(TomlDocument& document, const std::string& key) {
-  if (!document.root.contains(key) || !document.root[key].is_object()) return;
+  if (!document.root->contains(key) || !document.root[key].is_object()) return;
   document.root[key] = Json::array({document.root[key]});
   std::map<std::string, std::string> where;
   for (const auto& [path, place] : document.where) {
@@ -172,7 +178,7 @@ void make_list(TomlDocument& document, const std::string& key) {
 }
 
 void set_value(TomlDocument& document, const std::string& path, Json value, const std::string& where) {
-  Json changed = document.root;  // nothing is changed if a later key fails
+  Json changed = *document.root;  // nothing is changed if a later key fails
   Json* at = &changed;
   const std::vector<std::string> keys = split(path);
   if (keys.size() > most_levels)
@@ -189,7 +195,7 @@ void set_value(TomlDocument& document, const std::string& path, Json value, cons
 
 Json parse_value(const std::string& text) {
   try {
-    return parse_toml("value = " + text + "\n", "value").root.at("value");
+    return parse_toml("value = " + text + "\n", "value").root->at("value");
   } catch (const geometry::ContentError&) {
     return text;
   }

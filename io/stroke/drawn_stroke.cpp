@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "geometry/mesh/errors.h"
+#include "geometry/mesh/mesh.h"
 #include "io/base/nearest_word.h"
 #include "io/stroke/stroke_file.h"
 
@@ -21,7 +24,7 @@ double length_of(const std::vector<std::array<double, 2>>& points, bool closed) 
 
 double length_of(const geometry::Stroke& stroke) {
   double sum = 0;
-  const auto& p = stroke.points;
+  const std::vector<geometry::Point> p(stroke.points.begin(), stroke.points.end());
   for (std::size_t i = stroke.closed ? 0 : 1; i < p.size(); ++i)
     if (!std::binary_search(stroke.breaks.begin(), stroke.breaks.end(), i))
       sum += std::sqrt(CGAL::squared_distance(p[i > 0 ? i - 1 : p.size() - 1], p[i]));
@@ -45,7 +48,8 @@ double drawn_length(const DrawnStroke& stroke) {
     return length_of(drawn->pixels, stroke.stroke.closed);
   if (const auto* drawn = std::get_if<TextureStroke>(&stroke.on))
     return length_of(drawn->points, stroke.stroke.closed);
-  return std::holds_alternative<VertexStroke>(stroke.on) ? geometry::unset_value : length_of(stroke.stroke);
+  return std::holds_alternative<VertexStroke>(stroke.on) ? std::numeric_limits<double>::quiet_NaN()
+                                                         : length_of(stroke.stroke);
 }
 
 std::size_t find_stroke(std::span<const DrawnStroke> strokes, const std::string& name) {
@@ -91,7 +95,7 @@ void move_stroke(DrawnStroke& stroke, std::span<const double> by) {
   if (auto* drawn = std::get_if<PictureStroke>(&stroke.on)) shift(drawn->pixels);
   if (auto* drawn = std::get_if<TextureStroke>(&stroke.on)) shift(drawn->points);
   if (in_space)
-    for (geometry::Point& p : stroke.stroke.points) p = p + geometry::Vector(by[0], by[1], by[2]);
+    for (auto& p : stroke.stroke.points) p = {p.x() + by[0], p.y() + by[1], p.z() + by[2]};
 }
 
 }  // namespace furrow::io

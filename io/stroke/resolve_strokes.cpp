@@ -44,7 +44,7 @@ class Resolving {
   }
 
   PlacedStroke place(const Stroke& stroke, std::monostate) const {
-    return {stroke.points, stroke.breaks, stroke.closed, {}};
+    return {{stroke.points.begin(), stroke.points.end()}, stroke.breaks, stroke.closed, {}};
   }
 
  private:
@@ -102,10 +102,10 @@ std::vector<double> drawn_shares(const DrawnStroke& drawn) {
 void move_numbers(const DrawnStroke& drawn, Stroke& stroke) {
   if (std::holds_alternative<std::monostate>(drawn.on)) return;
   const std::vector<double> from = drawn_shares(drawn);
-  const std::vector<double> to =
-      shares(stroke.points.size(), stroke.closed, [&](std::size_t i, std::size_t j) {
-        return std::sqrt(CGAL::squared_distance(stroke.points[i], stroke.points[j]));
-      });
+  const std::vector<Point> points(stroke.points.begin(), stroke.points.end());
+  const std::vector<double> to = shares(points.size(), stroke.closed, [&](std::size_t i, std::size_t j) {
+    return std::sqrt(CGAL::squared_distance(points[i], points[j]));
+  });
   for (std::vector<double>* list : {&stroke.heights, &stroke.widths}) {
     if (list->empty()) continue;
     std::vector<double> placed;
@@ -138,7 +138,7 @@ ResolvedStrokes resolve_strokes(std::span<const DrawnStroke> strokes, const Mesh
       continue;
     }
     Stroke stroke = drawn.stroke;
-    stroke.points = std::move(placed.points);
+    stroke.points.assign(placed.points.begin(), placed.points.end());
     stroke.breaks = std::move(placed.breaks);
     stroke.closed = placed.closed;
     move_numbers(drawn, stroke);

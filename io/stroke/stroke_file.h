@@ -9,7 +9,6 @@
 #include <variant>
 #include <vector>
 
-#include "geometry/mesh/property_names.h"
 #include "geometry/stroke/stroke.h"
 #include "io/base/camera.h"
 #include "io/mesh/mesh_file.h"
@@ -25,7 +24,8 @@ struct PictureStroke {
 struct TextureStroke {
   std::vector<geometry::TextureCoordinate> points;  ///< (u, v)
   std::string group;                                ///< only faces of the group of that name; empty: of any
-  std::optional<geometry::Point> near;              ///< of several places the nearest to this point [m]
+  std::optional<geometry::Coordinates<geometry::Point>>
+      near;  ///< of several places the nearest to this point [m]
 };
 /// Drawn from vertex to vertex along shortest paths.
 struct VertexStroke {

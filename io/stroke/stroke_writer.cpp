@@ -4,6 +4,7 @@
 #include <ostream>
 #include <stdexcept>
 
+#include "geometry/mesh/mesh.h"
 #include "io/base/atomic_file.h"
 #include "io/base/camera_file.h"
 #include "io/base/own_mark.h"
@@ -44,9 +45,9 @@ Json to_json(const DrawnStroke& drawn, const WriteOptions& options) {
     item["vertices"] = path->vertices;
   } else {
     if (stroke.direction)
-      item["direction"] = to_json(to_file(CGAL::ORIGIN + *stroke.direction, {1, options.up}));
+      item["direction"] = to_json(to_file(CGAL::ORIGIN + Vector(*stroke.direction), {1, options.up}));
     if (!stroke.breaks.empty()) item["breaks"] = stroke.breaks;
-    for (const Point& p : stroke.points) item["points"].push_back(to_json(to_file(p, options)));
+    for (const Point p : stroke.points) item["points"].push_back(to_json(to_file(p, options)));
   }
   return item;
 }
@@ -63,7 +64,7 @@ bool finite(const DrawnStroke& drawn) {
   if (!std::isfinite(s.height)) return false;
   if (const auto* on = std::get_if<PictureStroke>(&drawn.on)) return finite(on->pixels);
   if (const auto* on = std::get_if<TextureStroke>(&drawn.on))
-    return finite(on->points) && (!on->near || finite(*on->near - CGAL::ORIGIN));
+    return finite(on->points) && (!on->near || finite(Point(*on->near) - CGAL::ORIGIN));
   if (const auto* on = std::get_if<VertexStroke>(&drawn.on)) return !on->vertices.empty();
   return !s.points.empty() && (!s.direction || finite(*s.direction)) &&
          std::all_of(s.points.begin(), s.points.end(),

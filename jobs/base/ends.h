@@ -14,9 +14,9 @@ namespace furrow::jobs {
 
 /// A place where cloth passes through itself: faces that cross each other or share a vertex.
 struct CrossingPlace {
-  geometry::Point centre{0, 0, 0};   ///< [m]
-  double extent = 0;                 ///< longest side of the box around its faces [m]
-  std::size_t pairs = 0;             ///< of faces that cross here
+  geometry::Coordinates<geometry::Point> centre;  ///< [m]
+  double extent = 0;                              ///< longest side of the box around its faces [m]
+  std::size_t pairs = 0;                          ///< of faces that cross here
   std::size_t from_start = 0;        ///< of them, where the garment crossed itself from the start
   std::array<std::string, 2> parts;  ///< of the garment that cross; twice the same: it crosses itself
 };
@@ -26,9 +26,9 @@ struct ClothCrossings {
   std::optional<std::size_t> at_start;  ///< pairs as it was given; none: only one state was measured
   std::size_t pairs = 0;                ///< now
   std::size_t from_start = 0;           ///< of them, where it crossed itself from the start
-  std::vector<geometry::Face> faces;    ///< that cross another, in ascending order
-  std::vector<std::size_t> corners;     ///< vertices of those faces by index, in ascending order
-  std::vector<CrossingPlace> places;    ///< most pairs first
+  std::vector<geometry::Index<geometry::Face>> faces;  ///< that cross another, in ascending order
+  std::vector<std::size_t> corners;   ///< vertices of those faces by index, in ascending order
+  std::vector<CrossingPlace> places;  ///< most pairs first
 };
 
 /// How a garment crossed itself as it was given.

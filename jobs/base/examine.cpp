@@ -200,7 +200,7 @@ bool is_figure(const Mesh& mesh, const Eigen::AlignedBox3d& box) {
 std::vector<Ailment> faults_of_mesh(const io::MeshFile& file) {
   std::vector<Ailment> found;
   add_repairs(file.repairs, found);
-  const std::size_t own = file.mesh.num_vertices() - file.repairs.duplicated_vertices;
+  const std::size_t own = file.mesh->num_vertices() - file.repairs.duplicated_vertices;
   add_doubled(file.mesh, places_of(file.mesh, own), found);
   add_flat_faces(file.mesh, found);
   add_holes(file.mesh, found);

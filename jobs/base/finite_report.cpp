@@ -2,6 +2,7 @@
 #include "jobs/base/finite_report.h"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 namespace furrow::jobs {
 namespace {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "geometry/mesh/degenerate_faces.h"
 #include "geometry/mesh/errors.h"

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "geometry/mesh/mesh.h"
 #include "io/mesh/mesh_file.h"
 
 namespace furrow::jobs {
@@ -16,10 +17,10 @@ Edges edges_of(const std::filesystem::path& path) {
   const io::MeshFile file = io::read_mesh(path);
   Edges low, high;
   low.fill(1e300), high.fill(-1e300);
-  for (const geometry::Vertex v : file.mesh.vertices())
+  for (const geometry::Vertex v : file.mesh->vertices())
     for (std::size_t k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], double(file.mesh.point(v)[int(k)]));
-      high[k] = std::max(high[k], double(file.mesh.point(v)[int(k)]));
+      low[k] = std::min(low[k], double(file.mesh->point(v)[int(k)]));
+      high[k] = std::max(high[k], double(file.mesh->point(v)[int(k)]));
     }
   return {high[0] - low[0], high[1] - low[1], high[2] - low[2]};
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/base/kept_shape.h"
 
+#include <nlohmann/json.hpp>
+
 namespace furrow::jobs {
 
 Json to_json(const physics::PrestressReport& rest, const physics::Certificate& certificate) {

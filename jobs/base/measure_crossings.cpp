@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "geometry/mesh/crossings.h"
 #include "geometry/mesh/property_names.h"
@@ -55,7 +56,7 @@ ClothCrossings measure_crossings(const io::MeshFile& file, const CrossedStart* s
   if (start) result.at_start = start->pairs;
   result.pairs = found.pairs;
   result.from_start = found.from_start;
-  result.faces = found.faces;
+  result.faces.assign(found.faces.begin(), found.faces.end());
   const std::vector<char> crossed = geometry::crossed_vertices(file.mesh, found);
   for (std::size_t v = 0; v < crossed.size(); ++v)
     if (crossed[v]) result.corners.push_back(v);
@@ -75,7 +76,7 @@ std::string name_of_part(const io::MeshFile& file, const geometry::Parts& parts,
   const auto group = geometry::find_map(file.mesh, geometry::attribute::group);
   const int name = group ? (*group)[of.first] : -1;
   if (name < 0 || std::size_t(name) >= file.group_names.size()) return plain;
-  for (geometry::Face f : file.mesh.faces())
+  for (geometry::Face f : file.mesh->faces())
     if (((*group)[f] == name) != (parts.of_face[f.idx()] == part)) return plain;
   return "'" + file.group_names[std::size_t(name)] + "'";
 }

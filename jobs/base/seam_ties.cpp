@@ -37,13 +37,13 @@ std::vector<std::size_t> knots_of(std::size_t vertices, const SeamTies& ties) {
 
 SeamTies doubled_vertices(const io::MeshFile& file) {
   SeamTies ties;
-  const std::size_t own = file.mesh.num_vertices() - file.repairs.duplicated_vertices;
-  if (own == file.mesh.num_vertices()) return ties;
+  const std::size_t own = file.mesh->num_vertices() - file.repairs.duplicated_vertices;
+  if (own == file.mesh->num_vertices()) return ties;
   io::PointNumbers numbers;
   std::vector<Vertex> first;  // of each point
-  for (const Vertex v : file.mesh.vertices()) {
-    if (file.mesh.is_isolated(v)) continue;
-    const auto [number, is_new] = numbers.number(file.mesh.point(v));
+  for (const Vertex v : file.mesh->vertices()) {
+    if (file.mesh->is_isolated(v)) continue;
+    const auto [number, is_new] = numbers.number(file.mesh->point(v));
     if (is_new)
       first.push_back(v);
     else if (v.idx() >= own)

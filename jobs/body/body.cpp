@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/body/body.h"
 
+#include <nlohmann/json.hpp>
+
+#include "geometry/figure/repair_body.h"
 #include "geometry/mesh/self_intersections.h"
 #include "jobs/base/output_checks.h"
 #include "jobs/base/read_inputs.h"
@@ -44,7 +47,7 @@ BodyReport shape_body(const BodyJob& job, Listener& listener) {
 }
 
 Json to_json(const BodyReport& r) {
-  return {{"vertices", r.mesh.mesh.number_of_vertices()},
+  return {{"vertices", r.mesh.mesh->number_of_vertices()},
           {"asked", measures_json(r.asked)},
           {"before", measures_json(r.shape.before)},
           {"reached", measures_json(r.shape.reached)},

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "io/picture/png_file.h"
 #include "io/picture/render_slice.h"

@@ -11,6 +11,7 @@
 #include "bridge/arrays/convert.h"
 #include "bridge/arrays/gather.h"
 #include "bridge/draping/fit_piercing.h"
+#include "geometry/figure/repair_body.h"
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/struts.h"
@@ -326,8 +327,8 @@ io::MeshFile WorldBody::at(double time, const Context& context) const {
   io::MeshFile file = read_mesh(path_, {with_unit(context.frame, unit_), context.listener, context.memory});
   const physics::Pose pose = physics::pose(motion_, time);
   std::vector<physics::Vec3> x = animated_ ? vertices_at(time) : bridge::positions_of(file.mesh);
-  for (geometry::Vertex v : file.mesh.vertices())
-    file.mesh.point(v) = bridge::to_cgal(animated_ ? x[v] : pose.to_world(x[v]));
+  for (geometry::Vertex v : file.mesh->vertices())
+    file.mesh->point(v) = bridge::to_cgal(animated_ ? x[v] : pose.to_world(x[v]));
   return file;
 }
 

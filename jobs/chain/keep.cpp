@@ -78,7 +78,7 @@ OpenScene open_scene(const KeepJob& job, Listener& listener) {
 
 /// The gap that a state's cloth has settled at [m]; 0: on another body, or under another gap.
 double settled_gap(const io::SavedState& state, const WorldBody* body, double gap) {
-  const Json material = state.scene.value("material", Json::object());
+  const Json material = state.scene->value("material", Json::object());
   const bool settled = body && body->fingerprint() == state.body &&
                        material.value("gap", physics::SimulateOptions{}.contact_gap) == gap;
   return settled ? state.contact_gap : 0;
@@ -208,7 +208,7 @@ void write_kept_state(const OpenScene& open, const SceneCloth& cloth, std::optio
   kept.pins = cloth.pins;
   kept.body = cloth.body ? cloth.body->fingerprint() : "";
   kept.scene = io::relocated(open.document, open.folder, path.parent_path());
-  kept.scene.erase("output");
+  kept.scene->erase("output");
   io::write_state(path, std::move(kept));
 }
 

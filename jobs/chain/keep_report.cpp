@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "jobs/base/kept_shape.h"
 #include "jobs/base/read_inputs.h"

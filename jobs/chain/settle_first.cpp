@@ -62,13 +62,14 @@ class CarriedStroke {
   /// Between two of its points.
   void add(std::size_t a, std::size_t b, double share) {
     const auto mix = [&](const auto& list) { return (1 - share) * list[a] + share * list[b]; };
-    result_.points.push_back(
-        carrier_(from_.points[a] + share * (from_.points[b] - from_.points[a]), from_.direction));
+    const geometry::Point p = from_.points[a], q = from_.points[b];
+    result_.points.push_back(carrier_(p + share * (q - p), from_.direction));
     if (!from_.heights.empty()) result_.heights.push_back(mix(from_.heights));
     if (!from_.widths.empty()) result_.widths.push_back(mix(from_.widths));
   }
   void lead(std::size_t a, std::size_t b) {
-    const double length = std::sqrt(CGAL::squared_distance(from_.points[a], from_.points[b]));
+    const double length =
+        std::sqrt(CGAL::squared_distance(geometry::Point(from_.points[a]), geometry::Point(from_.points[b])));
     const int n = int(std::clamp(length / spacing_, 1.0, 1000.0));
     for (int k = 1; k < n; ++k) add(a, b, double(k) / n);
   }
@@ -103,9 +104,9 @@ std::optional<MemoryFiles> settle_first(const io::Scene& scene, double gap, cons
   const Draped draped = drape_garment(alone, &body, settings, false, quiet);
   if (draped.end.falls() || !draped.end.finite || draped.report.stopped) return std::nullopt;
   io::MeshFile rests = before;
-  for (const geometry::Vertex v : rests.mesh.vertices()) rests.mesh.point(v) = draped.file.mesh.point(v);
+  for (const geometry::Vertex v : rests.mesh->vertices()) rests.mesh->point(v) = draped.file.mesh->point(v);
   if (auto map = geometry::find_map(rests.mesh, geometry::attribute::rest_position))
-    rests.mesh.remove_property_map(*map);  // lines are drawn from where it lies now
+    rests.mesh->remove_property_map(*map);  // lines are drawn from where it lies now
   MemoryFiles memory = context.memory ? *context.memory : MemoryFiles{};
   const Carrier carrier(before.mesh, rests.mesh);
   const double spacing = geometry::mean_rest_length(rests.mesh);

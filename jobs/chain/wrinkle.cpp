@@ -157,7 +157,7 @@ DrawnRound draw(const WrinkleJob& job, Canvas& canvas, const io::Scene* keep, bo
     if (stages && stage == geometry::Stage::inserted) stages->inserted = mesh;
     if (stages && stage == geometry::Stage::displaced) stages->displaced = mesh;
   };
-  const std::size_t old_count = canvas.file.mesh.number_of_vertices();
+  const std::size_t old_count = canvas.file.mesh->number_of_vertices();
   DrawnRound drawn;
   LineTarget target = target_of(job, canvas, keep);
   if (refined) target.garment.clear();  // its file alone does not draw the same lines again

@@ -16,12 +16,14 @@ io::RenderScene preview_scene(const WrinkleReport& report) {
     heights.push_back(std::isfinite(line.height) ? line.height : 0);
   const WrinkleStages& stages = report.stages.value();
   // Steep flanks of folds are refined after insertion: those faces are not there yet.
-  std::vector<geometry::Face> changed;
+  std::vector<geometry::Index<geometry::Face>> changed;
   for (geometry::Face f : report.drawn.round.report.insertion.changed_faces)
-    if (stages.inserted.has_valid_index(f)) changed.push_back(f);
-  io::RenderScene scene = io::preview_scene(stages.inserted, changed, stages.before.num_vertices(), heights);
+    if (stages.inserted->has_valid_index(f)) changed.push_back(f);
+  io::RenderScene scene = io::preview_scene(stages.inserted, changed, stages.before->num_vertices(), heights);
+  const auto crossing =
+      geometry::find_crossings(stages.inserted, geometry::find_parts(stages.inserted)).faces;
   io::mark_faces(scene.meshes[0],
-                 geometry::find_crossings(stages.inserted, geometry::find_parts(stages.inserted)).faces);
+                 std::vector<geometry::Index<geometry::Face>>(crossing.begin(), crossing.end()));
   return scene;
 }
 

@@ -32,7 +32,7 @@ std::vector<Strut> links_of_lines(const io::MeshFile& file) {
   std::vector<Strut> links;
   for (const auto& [a, b] : pairs) {
     const Vertex v{Vertex::size_type(a)}, w{Vertex::size_type(b)};
-    const double length = std::sqrt((file.mesh.point(w) - file.mesh.point(v)).squared_length());
+    const double length = std::sqrt((file.mesh->point(w) - file.mesh->point(v)).squared_length());
     if (!(length > 0))
       throw geometry::ContentError("the line from vertex " + std::to_string(a) + " to " + std::to_string(b) +
                                    " has no length; merge them");

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "bridge/arrays/couple_bending.h"
@@ -295,7 +296,7 @@ namespace {
 
 /// A figure of a table, > 0.
 double figure(const io::TomlDocument& table, const std::string& kind, const std::string& key) {
-  const Json& all = table.root.at(kind);
+  const Json& all = table.root->at(kind);
   const double value = all.contains(key) && all[key].is_number() ? all[key].get<double>() : NAN;
   if (!(value > 0) || !std::isfinite(value))
     throw geometry::ContentError(table.place(kind) + ": " + kind + "." + key +
@@ -311,7 +312,7 @@ double bias_or_usual(double measured, double warp, double weft) {
 }  // namespace
 
 Json fabric_from_table(const io::TomlDocument& table) {
-  const bool kes = table.root.contains("kes"), fast = table.root.contains("fast");
+  const bool kes = table.root->contains("kes"), fast = table.root->contains("fast");
   if (kes == fast)
     throw geometry::ContentError(table.name +
                                  ": a table has either [kes] or [fast]; docs/threads.md lists both");

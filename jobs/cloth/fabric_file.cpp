@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/cloth/fabric_file.h"
 
+#include <nlohmann/json.hpp>
+
 #include "geometry/mesh/errors.h"
 #include "io/base/lower_case.h"
 #include "io/scene/settings_table.h"
@@ -15,7 +17,7 @@ bool is_file(const Json& preset) {
 }
 
 Json material_table(const io::TomlDocument& document) {
-  return document.root.value("material", Json::object());
+  return document.root->value("material", Json::object());
 }
 
 Json preset_of(const Json& material) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "bridge/arrays/convert.h"
 #include "geometry/figure/hem_folds.h"

@@ -2,6 +2,7 @@
 #include "jobs/cloth/pins.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "geometry/mesh/border_loops.h"
@@ -53,9 +54,9 @@ std::vector<std::vector<int>> find_pins(const io::MeshFile& file, const std::vec
   for (const io::ScenePins& p : scene) {
     std::vector<int> pins = p.vertices;
     for (int v : pins)
-      if (v >= static_cast<int>(file.mesh.number_of_vertices()))
+      if (v >= static_cast<int>(file.mesh->number_of_vertices()))
         throw std::invalid_argument("pinned vertex " + std::to_string(v) + ": the mesh has vertices 0 to " +
-                                    std::to_string(file.mesh.number_of_vertices() - 1));
+                                    std::to_string(file.mesh->number_of_vertices() - 1));
     if (const std::vector<double>& b = p.box; !b.empty())
       add_named(pins, geometry::vertices_in_box(file.mesh, {b[0], b[1], b[2]}, {b[3], b[4], b[5]}),
                 "the pin box " + box_text(b));

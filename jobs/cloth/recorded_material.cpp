@@ -14,7 +14,9 @@ using io::Json;
 
 constexpr const char* cloth[] = {"preset", "membrane", "bending_law", "stiffness", "bending"};
 
-Json material_of(const io::TomlDocument& document) { return document.root.value("material", Json::object()); }
+Json material_of(const io::TomlDocument& document) {
+  return document.root->value("material", Json::object());
+}
 
 bool same_cloth(const Json& a, const Json& b) {
   for (const char* key : cloth)
@@ -44,7 +46,7 @@ bool take_default_cloth(io::TomlDocument& document, const std::string& who) {
 }
 
 bool take_default_moving_cloth(io::TomlDocument& document, const std::string& who) {
-  const Json simulation = document.root.value("simulation", Json::object());
+  const Json simulation = document.root->value("simulation", Json::object());
   return simulation.value("integrator", Json()) != "xpbd" && take_default_cloth(document, who);
 }
 

@@ -43,7 +43,7 @@ void draw_first_lines(const io::Scene& scene, SceneCloth& result, const Context&
     }
     const auto strokes = read_strokes(lines, context);
     require_heights(strokes, result.file.mesh, context);
-    const std::size_t old_count = result.file.mesh.number_of_vertices();
+    const std::size_t old_count = result.file.mesh->number_of_vertices();
     const LineTarget target{result.file, garment_file(scene, context), scene.material.density, nullptr, {}};
     for (const std::string& w : draw_lines(target, strokes, lines).warnings)
       context.warn("drawing", w, lines.strokes.string());
@@ -76,7 +76,7 @@ io::MeshFile begin_garment(const io::Scene& scene, const Context& context, Chain
   if (geometry::is_chain(file.mesh)) return file;
   heed(faults_of_mesh(file), scene.garment.string(), context);
   heed(faults_of_garment(file.mesh), scene.garment.string(), context);
-  require_refinement(file.mesh.number_of_faces(), 4, scene.subdivide, "--subdivide", context);
+  require_refinement(file.mesh->number_of_faces(), 4, scene.subdivide, "--subdivide", context);
   if (scene.material.warp != "auto" || scene.material.is_woven())
     lay_warp(file, scene.material.warp, scene.material.is_woven(), scene.garment.string(), context);
   subdivide_tied(file, scene, context);

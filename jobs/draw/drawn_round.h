@@ -35,7 +35,7 @@ using StrokeInput = std::variant<std::filesystem::path, std::vector<io::DrawnStr
 
 /// The mesh on the way.
 struct WrinkleStages {
-  geometry::Mesh before, inserted, displaced;
+  geometry::Owned<geometry::Mesh> before, inserted, displaced;
 };
 
 /// How well a cloth is shaped at one moment (geometry/quality/fold_quality.h): of lines, the worst.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "geometry/mesh/measures.h"
@@ -188,7 +189,7 @@ LineRound draw_lines(const LineTarget& target, const std::vector<io::DrawnStroke
   const std::optional<io::WrinkleRecord> earlier = io::find_wrinkle_record(target.file);
   geometry::WrinkleOptions options = continued(lines.options, target.file.mesh, earlier, target.density);
   for (const std::vector<int>& list : target.pins)
-    for (int v : list) options.held.emplace_back(static_cast<geometry::Vertex::size_type>(v));
+    for (int v : list) options.held.push_back(geometry::Vertex(static_cast<geometry::Vertex::size_type>(v)));
   io::ResolvedStrokes resolved = io::resolve_strokes(strokes, target.file, options.insertion.max_distance);
   LineRound round;
   round.first_line = options.first_line;

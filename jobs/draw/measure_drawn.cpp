@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "geometry/quality/fold_quality.h"
 #include "jobs/base/finite_report.h"
@@ -24,7 +25,8 @@ void take_line(const geometry::FoldSurface& surface, const geometry::WrinkledLin
   const double width = line.width.value_or(width_of_height * std::abs(line.height));
   if (!(width > 0) || line.height == 0) return;
   const geometry::LinePath path = path_of_line(line);
-  for (const auto& chain : line.chains) {
+  for (const auto& drawn : line.chains) {
+    const std::vector<geometry::Vertex> chain(drawn.begin(), drawn.end());
     if (chain.size() < 2) continue;
     const geometry::FoldCurve curve = geometry::curve_of_chain(surface, chain, width, line.height);
     if (curve.points.size() < 2) continue;
@@ -57,7 +59,8 @@ ShapeQuality quality_before(const geometry::Mesh& mesh) {
 ShapeQuality quality_of_lines(const geometry::Mesh& mesh, const geometry::WrinkleReport& report) {
   ShapeQuality q = quality_before(mesh);
   if (report.undisplaced.size() != mesh.num_vertices()) return q;
-  const geometry::FoldSurface surface = geometry::surface_over(mesh, report.undisplaced);
+  const geometry::FoldSurface surface = geometry::surface_over(
+      mesh, std::vector<geometry::Point>(report.undisplaced.begin(), report.undisplaced.end()));
   for (const geometry::WrinkledLine& line : report.lines) take_line(surface, line, q);
   return q;
 }

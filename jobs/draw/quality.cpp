@@ -59,10 +59,10 @@ std::optional<io::MeshFile> at_rest_positions(const io::MeshFile& file) {
   const auto rest = geometry::find_map(file.mesh, geometry::attribute::rest_position);
   if (!rest) return std::nullopt;
   io::MeshFile before = file;
-  for (Vertex v : before.mesh.vertices()) {
+  for (Vertex v : before.mesh->vertices()) {
     const auto& p = (*rest)[v];
     if (!std::isfinite(p[0] + p[1] + p[2])) return std::nullopt;
-    before.mesh.point(v) = {p[0], p[1], p[2]};
+    before.mesh->point(v) = {p[0], p[1], p[2]};
   }
   return before;
 }
@@ -204,8 +204,8 @@ std::string measure_lines(const QualityJob& job, const Before& before, QualityRe
   const FoldSurface surface =
       before.from == "rest_positions"
           ? geometry::surface_over(report.mesh.mesh,
-                                   std::vector<geometry::Point>(before.file->mesh.points().begin(),
-                                                                before.file->mesh.points().end()))
+                                   std::vector<geometry::Point>(before.file->mesh->points().begin(),
+                                                                before.file->mesh->points().end()))
           : geometry::surface_over(report.mesh.mesh, before.file->mesh,
                                    record.options.find("--flat-base") != std::string::npos);
   stop_if_cancelled(context);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <nlohmann/json.hpp>
 
 #include "io/picture/fit_colours.h"
 #include "io/picture/render_scene.h"

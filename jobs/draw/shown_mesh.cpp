@@ -14,14 +14,16 @@ void add_point(std::vector<float>& list, const geometry::Point& p) {
 
 }  // namespace
 
-ShownMesh shown_mesh(const geometry::Mesh& mesh, std::span<const geometry::Point> undrawn, int first_line) {
+ShownMesh shown_mesh(const geometry::Mesh& mesh,
+                     std::span<const geometry::Coordinates<geometry::Point>> undrawn, int first_line) {
   ShownMesh shown;
   std::vector<std::uint32_t> index(mesh.num_vertices(), 0);
   std::uint32_t count = 0;
   for (const geometry::Vertex v : mesh.vertices()) {
     index[std::size_t(v)] = count++;
     add_point(shown.positions, mesh.point(v));
-    add_point(shown.undrawn, std::size_t(v) < undrawn.size() ? undrawn[std::size_t(v)] : mesh.point(v));
+    add_point(shown.undrawn,
+              std::size_t(v) < undrawn.size() ? geometry::Point(undrawn[std::size_t(v)]) : mesh.point(v));
   }
   for (const geometry::Face f : mesh.faces())
     for (const geometry::Vertex v : mesh.vertices_around_face(mesh.halfedge(f)))

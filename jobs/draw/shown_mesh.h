@@ -26,7 +26,8 @@ struct ShownMesh {
 };
 
 /// `undrawn`: a point for each vertex, or empty where they lie there. Lines count from `first_line` on. O(n).
-ShownMesh shown_mesh(const geometry::Mesh& mesh, std::span<const geometry::Point> undrawn = {},
+ShownMesh shown_mesh(const geometry::Mesh& mesh,
+                     std::span<const geometry::Coordinates<geometry::Point>> undrawn = {},
                      int first_line = 0);
 
 }  // namespace furrow::jobs

@@ -2,6 +2,7 @@
 #include "jobs/draw/stroke_list.h"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "geometry/mesh/errors.h"
 #include "io/base/lower_case.h"

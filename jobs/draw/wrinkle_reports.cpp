@@ -2,6 +2,7 @@
 #include "jobs/draw/wrinkle_reports.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "geometry/mesh/property_names.h"
 #include "geometry/rest/rest_state.h"
@@ -35,9 +36,8 @@ Json to_json(const geometry::InsertionReport& r, const geometry::RestMetricAudit
   for (const auto& [reason, count] : r.refused_flips) refused[geometry::to_string(reason)] = count;
   Json missing = Json::array();
   for (const geometry::MissingLineEdge& m : r.missing_edges)
-    missing.push_back({{"from", static_cast<std::size_t>(m.from)},
-                       {"to", static_cast<std::size_t>(m.to)},
-                       {"reason", geometry::to_string(m.reason)}});
+    missing.push_back(
+        {{"from", m.from.idx()}, {"to", m.to.idx()}, {"reason", geometry::to_string(m.reason)}});
   return {{"inserted", r.inserted},
           {"split_edges", r.split_edges.size()},
           {"flipped", r.flipped},

@@ -2,6 +2,7 @@
 #include "jobs/mesh/bake.h"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/measures.h"
@@ -149,7 +150,7 @@ Json to_json(const BakeReport& r) {
             {"overlapping_texels", r.maps.overlapping},
             {"largest_displacement", r.maps.largest}};
   if (r.check) {
-    Json check{{"vertices", r.check->applied.mesh.number_of_vertices()}};
+    Json check{{"vertices", r.check->applied.mesh->number_of_vertices()}};
     for (const BakeDeviation& d : r.check->deviations)
       check[d.name] = {{"median", d.median}, {"p95", d.p95}, {"max", d.largest}, {"area", d.area}};
     json["check"] = std::move(check);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/mesh/doctor.h"
 
+#include <nlohmann/json.hpp>
+
 #include "geometry/figure/close_holes.h"
 #include "geometry/figure/repair_body.h"
 #include "geometry/mesh/measures.h"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/mesh/info.h"
 
+#include <nlohmann/json.hpp>
+
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/measures.h"
 #include "geometry/mesh/property_names.h"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/mesh/smooth.h"
 
+#include <nlohmann/json.hpp>
+
 #include "jobs/base/output_checks.h"
 #include "jobs/base/read_inputs.h"
 #include "physics/base/cancel_scope.h"
@@ -23,7 +25,7 @@ SmoothReport smooth(const SmoothJob& job, Listener& listener) {
 }
 
 Json to_json(const SmoothReport& r) {
-  return {{"vertices", r.mesh.mesh.number_of_vertices()}, {"iterations", r.iterations}};
+  return {{"vertices", r.mesh.mesh->number_of_vertices()}, {"iterations", r.iterations}};
 }
 
 }  // namespace furrow::jobs

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/mesh/subdivide.h"
 
+#include <nlohmann/json.hpp>
+
 #include "geometry/insert/insert_along_stroke.h"
 #include "geometry/insert/insert_in_faces.h"
 #include "geometry/mesh/property_names.h"
@@ -24,7 +26,8 @@ namespace {
 void conclude(geometry::InsertionReport report, SubdivideReport& result) {
   geometry::Mesh& mesh = result.mesh.mesh;
   if (geometry::find_map(mesh, geometry::attribute::bending_rest_length))
-    geometry::rebuild_bending_springs(mesh, report.changed_faces);
+    geometry::rebuild_bending_springs(
+        mesh, std::vector<geometry::Face>(report.changed_faces.begin(), report.changed_faces.end()));
   if (auto mass = geometry::find_map(mesh, geometry::attribute::mass)) mesh.remove_property_map(*mass);
   result.rest = geometry::audit_rest_metric(mesh);
   result.insertion = std::move(report);
@@ -115,8 +118,8 @@ SubdivideReport subdivide(const SubdivideJob& job, Listener& listener) {
 Json to_json(const SubdivideReport& r) {
   Json json = Json::object();
   if (r.insertion) json = to_json(*r.insertion, *r.rest);
-  json["vertices"] = r.mesh.mesh.number_of_vertices();
-  json["faces"] = r.mesh.mesh.number_of_faces();
+  json["vertices"] = r.mesh.mesh->number_of_vertices();
+  json["faces"] = r.mesh.mesh->number_of_faces();
   return json;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/mesh/transfer.h"
 
+#include <nlohmann/json.hpp>
+
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/property_names.h"
 #include "io/base/atomic_file.h"
@@ -26,14 +28,14 @@ std::vector<std::string> names_of_inputs(const TransferJob& job) {
 /// Rest positions from a mesh with the same vertices.
 void set_rest_positions(geometry::Mesh& mesh, const TransferJob& job, const Context& context) {
   const io::MeshFile rest = read_mesh(*job.rest, context);
-  if (rest.mesh.num_vertices() != mesh.num_vertices())
+  if (rest.mesh->num_vertices() != mesh.num_vertices())
     throw geometry::ContentError(name_of(*job.rest, "the rest") + ": has " +
-                                 std::to_string(rest.mesh.num_vertices()) + " vertices, but " +
+                                 std::to_string(rest.mesh->num_vertices()) + " vertices, but " +
                                  name_of(job.wrinkled, "the wrinkled mesh") + " has " +
                                  std::to_string(mesh.num_vertices()));
   auto map = geometry::ensure_map(mesh, geometry::attribute::rest_position);
   for (geometry::Vertex v : mesh.vertices()) {
-    const geometry::Point& p = rest.mesh.point(v);
+    const geometry::Point& p = rest.mesh->point(v);
     map[v] = {p.x(), p.y(), p.z()};
   }
 }
@@ -62,7 +64,7 @@ std::optional<std::string> text_as_read(const TransferJob& job, const io::MeshFi
   if (original.empty() || original == "-" || job.output.empty() || !is_obj(original) ||
       !is_obj(job.output.string()))
     return std::nullopt;
-  const std::vector<geometry::Point> positions(file.mesh.points().begin(), file.mesh.points().end());
+  const std::vector<geometry::Point> positions(file.mesh->points().begin(), file.mesh->points().end());
   const std::string mark = "# " + std::string(io::own_mark) + "\n",
                     text = io::rewrite_obj_vertices(io::read_text(original), original, positions,
                                                     write_options(frame), file.folder,
@@ -115,7 +117,7 @@ TransferReport transfer(const TransferJob& job, Listener& listener) {
 }
 
 Json to_json(const TransferReport& r) {
-  return {{"vertices", r.result.mesh.number_of_vertices()},
+  return {{"vertices", r.result.mesh->number_of_vertices()},
           {"copied", r.moved.copied},
           {"by_index", r.moved.by_index},
           {"interpolated", r.moved.interpolated},

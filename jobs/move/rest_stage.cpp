@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "bridge/arrays/gather.h"
 #include "bridge/draping/drape.h"
@@ -28,7 +29,7 @@ bridge::DrapeOptions rest_options(const io::Scene& scene, double gap, const io::
   options.settle.gravity = scene.simulation.gravity;
   options.settle.friction = scene.simulation.friction;
   options.settle.gap = gap;
-  options.settle.threads = threads_of(scene, garment.mesh.number_of_vertices());
+  options.settle.threads = threads_of(scene, garment.mesh->number_of_vertices());
   return options;
 }
 
@@ -77,7 +78,7 @@ RestStage rest_stage(io::MeshFile& garment, const io::Scene& scene, const std::v
   physics::Cloth cloth;
   const bridge::DrapeReport report = bridge::drape(mesh, cloth, collider.get(), options, make, observe);
   stop_if_cancelled(context);
-  for (const geometry::Vertex v : mesh.vertices()) garment.mesh.point(v) = mesh.point(v);
+  for (const geometry::Vertex v : mesh.vertices()) garment.mesh->point(v) = mesh.point(v);
   stage.settle = report.levels.back().settle;
   stage.settle.iterations += report.levels.back().soft.iterations;
   stage.settle.factorisations += report.levels.back().soft.factorisations;

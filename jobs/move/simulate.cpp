@@ -6,6 +6,7 @@
 
 #include "bridge/arrays/gather.h"
 #include "bridge/draping/energy_parts.h"
+#include "geometry/mesh/property_names.h"
 #include "geometry/mesh/struts.h"
 #include "io/base/atomic_file.h"
 #include "io/mesh/mesh_file.h"
@@ -131,7 +132,7 @@ Reached take_up(Run& run, io::SavedState now) {
   for (const auto& round : run.strokes) require_heights(round, reached.now.file.mesh, run.context);
   if (!run.scene.output.animation.empty())
     require_animation(run.scene.simulation.seconds - reached.now.simulation.time, run.scene.output.fps,
-                      reached.now.file.mesh.number_of_vertices(), run.context);
+                      reached.now.file.mesh->number_of_vertices(), run.context);
   stop_if_cancelled(run.context);
   return reached;
 }
@@ -160,7 +161,7 @@ DrawnRound draw_round(const Run& run, Reached& reached) {
   const bool keeps = lines.keep && (moving || run.resumed);
   const std::optional<Reached> before = keeps ? std::optional(reached) : std::nullopt;
   if (moving) now = io::parse_state(io::state_bytes(std::move(now)), "state");  // as if it had been saved
-  const std::size_t old_count = now.file.mesh.number_of_vertices();
+  const std::size_t old_count = now.file.mesh->number_of_vertices();
   DrawnRound drawn{draw_lines(target_of(run, now, moving), run.strokes[round], lines,
                               lines.time == 0 ? stage_writer(run.scene.output, now.file, run.context)
                                               : geometry::StageObserver{}),
@@ -241,8 +242,8 @@ void write_state(const Run& run, const io::SavedState& now) {
   const std::filesystem::path& path = run.scene.output.state;
   io::SavedState state = now;
   state.scene = io::relocated(run.of.document, run.of.folder, path.parent_path());
-  state.scene.erase("output");  // it and stop_at belong to one call
-  if (state.scene.contains("simulation")) state.scene["simulation"].erase("stop_at");
+  state.scene->erase("output");  // it and stop_at belong to one call
+  if (state.scene->contains("simulation")) state.scene["simulation"].erase("stop_at");
   io::write_state(path, std::move(state));
 }
 

@@ -68,9 +68,9 @@ struct SimulateReport {
   std::vector<Fault> faults;                ///< of the shape reached, which make the run no success
   io::MeshFile garment;                     ///< at the end [m], y up; not of a run that diverged
   Frame frame;                              ///< of the files written
-  Json settings;                            ///< that were run, paths relative to the working directory
+  geometry::Owned<Json> settings;           ///< that were run, paths relative to the working directory
   std::string state;                        ///< that was gone on from: its path, and its settings
-  Json settings_before;
+  geometry::Owned<Json> settings_before;
 
   /// "finished", "stopped", "interrupted" or "diverged", of no step after it came to rest "at rest", and what
   /// is wrong with the shape reached.

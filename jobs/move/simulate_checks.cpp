@@ -78,12 +78,12 @@ void check_output_formats(const io::SceneOutput& out, bool has_body) {
 /// A state names its files in JSON, which is UTF-8: any other name would be lost.
 void check_names(const io::TomlDocument& document, const std::string& key) {
   try {
-    document.root.dump();
+    document.root->dump();
   } catch (const Json::exception&) {
     throw std::invalid_argument(
         key +
         ": the scene names a file whose name is not UTF-8, which a state cannot keep; rename that file: " +
-        document.root.dump(-1, ' ', false, Json::error_handler_t::replace));
+        document.root->dump(-1, ' ', false, Json::error_handler_t::replace));
   }
 }
 
@@ -104,7 +104,7 @@ void check_outputs(const OpenScene& open, const SimulateJob& job, Listener& list
 }
 
 void check_state(const io::Scene& scene, const io::SavedState& state) {
-  const io::Json garment = state.scene.value("garment", io::Json::object());
+  const io::Json garment = state.scene->value("garment", io::Json::object());
   if (scene.subdivide != garment.value("subdivide", 0))
     throw std::invalid_argument(
         "--subdivide: the garment of a state is in motion; refine it before the first step");

@@ -185,7 +185,7 @@ OpenScene open_scene(const DrapeJob& job, const GarmentScenes& all, Listener& li
 std::vector<io::Scene> scenes_of(const DrapeJob& job, const OpenScene& open) {
   if (job.fabrics.empty()) return {open.scene};
   const io::TomlDocument& document = open.document;
-  if (document.root.contains("/material/preset"_json_pointer) && !document.is_of_file("material.preset"))
+  if (document.root->contains("/material/preset"_json_pointer) && !document.is_of_file("material.preset"))
     throw std::invalid_argument("--fabric: --fabrics names the fabrics; leave out one of them");
   std::vector<io::Scene> scenes;
   for (const std::string& fabric : job.fabrics) {
@@ -264,7 +264,7 @@ DrapeJobReport drape_all(const DrapeJob& job, Listener& listener) {
     body->made_for =
         std::make_shared<const MadeFor>(read_made_for(made_for, body->triangles, *open.scene.body, context));
   const bool choose = !job.subdivide && std::none_of(all.begin(), all.end(), [](const io::TomlDocument& d) {
-    return d.root.value("garment", Json::object()).contains("subdivide");
+    return d.root->value("garment", Json::object()).contains("subdivide");
   });
   DrapeJobReport report{{}, {}, {}, scenes[0], open.frame};
   if (all.size() > 1) {

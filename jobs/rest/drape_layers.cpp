@@ -96,7 +96,7 @@ class LayerSearch {
 
   void hold(int vertex) {
     for (std::size_t i = 0; i < given_.size(); ++i) {
-      const int own = int(given_[i].file.mesh.number_of_vertices());
+      const int own = int(given_[i].file.mesh->number_of_vertices());
       if (vertex < own) return makers[i]->loose.push_back(vertex);
       vertex -= own;
     }
@@ -209,9 +209,9 @@ WornOver drape_worn_over(std::span<const io::Scene> scenes, std::span<const std:
     worn.garments.back().seconds = seconds.count();
     worn.garments.back().name = names[i];
     if (turned) worn.layers.turned.push_back(names[i]);
-    layers.push_back({&given[i].file.mesh, nullptr, turned, given[i].scene.touch});
+    layers.push_back({&*given[i].file.mesh, nullptr, turned, given[i].scene.touch});
   }
-  for (std::size_t i = 0; i < layers.size(); ++i) layers[i].now = &worn.garments[i].file.mesh;
+  for (std::size_t i = 0; i < layers.size(); ++i) layers[i].now = &*worn.garments[i].file.mesh;
   worn.layers.pairs = measure_layers(layers, worn.garments);
   for (Draped& d : worn.garments) take_facts(d);
   return worn;

@@ -184,7 +184,7 @@ GivenGarment read_given(const io::Scene& scene, const BodyCollider* body, const 
   if (choose && !s.plain && body)
     given.scene.subdivide =
         refinements_for_gap(given.file.mesh, scene.simulation.contact_gap, body->field.report().tolerance);
-  require_refinement(given.file.mesh.number_of_faces(), 4, given.scene.subdivide, "--subdivide", context);
+  require_refinement(given.file.mesh->number_of_faces(), 4, given.scene.subdivide, "--subdivide", context);
   if (given.scene.subdivide > 0 &&
       geometry::struts(given.file.mesh).size() > seam_ties(given.file.mesh).size())
     context.warn("struts_dropped",

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "geometry/mesh/edge_metric.h"
 #include "geometry/mesh/errors.h"
@@ -43,15 +44,15 @@ void check(const FitJob& job, Listener& listener) {
 /// Rest lengths as the edges are long in a mesh with the same vertices.
 void take_rest(geometry::Mesh& mesh, const FitJob& job, const Context& context) {
   const io::MeshFile rest = read_mesh(*job.rest, context);
-  if (rest.mesh.num_vertices() != mesh.num_vertices())
+  if (rest.mesh->num_vertices() != mesh.num_vertices())
     throw geometry::ContentError(name_of(*job.rest, "the rest") + ": has " +
-                                 std::to_string(rest.mesh.num_vertices()) + " vertices, but " +
+                                 std::to_string(rest.mesh->num_vertices()) + " vertices, but " +
                                  name_of(job.worn[0], "the garment") + " has " +
                                  std::to_string(mesh.num_vertices()));
   auto lengths = geometry::ensure_map(mesh, geometry::attribute::rest_length);
   for (geometry::Edge e : mesh.edges())
     lengths[e] = std::sqrt(
-        CGAL::squared_distance(rest.mesh.point(mesh.vertex(e, 0)), rest.mesh.point(mesh.vertex(e, 1))));
+        CGAL::squared_distance(rest.mesh->point(mesh.vertex(e, 0)), rest.mesh->point(mesh.vertex(e, 1))));
 }
 
 struct Body {

@@ -27,7 +27,8 @@ struct FitPanel {
   const geometry::Mesh* garment = nullptr;
   const geometry::Mesh* body = nullptr;
   std::string caption;
-  std::vector<geometry::Face> crossed = {};      ///< faces that cross other cloth; they are marked
+  std::vector<geometry::Index<geometry::Face>> crossed =
+      {};                                        ///< faces that cross other cloth; they are marked
   std::vector<const geometry::Mesh*> over = {};  ///< more coloured garments, worn over it
 };
 

@@ -127,7 +127,7 @@ bool GarmentMaker::any_held() const { return std::find(held_.begin(), held_.end(
 
 /// Those of the level; the finer one's are found by what this one is.
 void GarmentMaker::tie_seams(const geometry::Mesh& mesh) {
-  if (mesh.num_vertices() == as_read_.mesh.num_vertices())
+  if (mesh.num_vertices() == as_read_.mesh->num_vertices())
     ties_ = seam_ties(as_read_.mesh);
   else
     ties_ = refined_ties(tied_, ties_);
@@ -138,7 +138,7 @@ void GarmentMaker::tie_seams(const geometry::Mesh& mesh) {
 
 /// Refined as the garment is, level by level.
 void GarmentMaker::bring_to_places(const geometry::Mesh& mesh, physics::Cloth& cloth) {
-  if (mesh.num_vertices() == as_read_.mesh.num_vertices()) at_places_ = at_places(as_read_.mesh, places_);
+  if (mesh.num_vertices() == as_read_.mesh->num_vertices()) at_places_ = at_places(as_read_.mesh, places_);
   while (at_places_.num_vertices() < mesh.num_vertices()) geometry::loop_subdivide(at_places_, 1);
   cloth.particles.x = bridge::positions_of(at_places_);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/sketch/give_sketch.h"
 
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 

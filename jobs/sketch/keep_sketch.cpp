@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "geometry/fold/line_region.h"
@@ -95,7 +96,7 @@ KeepJob keep_job(const Sketch& sketch, const Json& strokes) {
   KeepJob job;
   job.budget = std::numeric_limits<double>::infinity();  // whoever draws sees it and cancels
   job.scene = sketch.scene;
-  job.scene.settings.root.erase("output");
+  job.scene.settings.root->erase("output");
   add_round(sketch, strokes, 0, Json::array(), job.scene);
   io::set_value(job.scene.settings, "output.mesh", in_memory, "the studio");
   return job;

@@ -2,6 +2,7 @@
 #include "jobs/sketch/play_sketch.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
 
@@ -16,7 +17,7 @@ namespace {
 constexpr double rounding = 1e-6;  // of a sum of steps [s]
 
 Json rounds_drawn(const io::SavedState& state) {
-  Json rounds = state.scene.value("lines", Json::array());
+  Json rounds = state.scene->value("lines", Json::array());
   while (rounds.size() > std::size_t(state.lines_drawn)) rounds.erase(rounds.size() - 1);
   return rounds;
 }
@@ -51,7 +52,7 @@ PlayedSketch play_sketch(const Sketch& sketch, const Json& strokes, const PlayRe
   if (!(request.seconds > 0)) throw std::invalid_argument("play: the seconds must be > 0");
   SimulateJob job;
   job.scene = sketch.scene;
-  job.scene.settings.root.erase("output");
+  job.scene.settings.root->erase("output");
   double time = 0;
   Json rounds = Json::array();
   if (request.state) {
@@ -59,7 +60,7 @@ PlayedSketch play_sketch(const Sketch& sketch, const Json& strokes, const PlayRe
     job.state_path = *request.state;
     time = job.state->simulation.time;
     rounds = rounds_drawn(*job.state);
-    if (job.scene.settings.root.contains("garment")) job.scene.settings.root["garment"].erase("subdivide");
+    if (job.scene.settings.root->contains("garment")) job.scene.settings.root["garment"].erase("subdivide");
   }
   add_round(sketch, strokes, time, std::move(rounds), job.scene);
   if (time >= longest_play)

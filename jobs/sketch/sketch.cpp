@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "io/base/atomic_file.h"
@@ -81,11 +82,11 @@ std::vector<io::DrawnStroke> parsed(const Json& strokes) {
 /// The settings of what comes to rest: those of the scene, without its lines.
 SceneInput at_rest_settings(const Sketch& sketch) {
   SceneInput input = sketch.scene;
-  input.settings.root.erase("lines");
-  input.settings.root.erase("output");
-  input.settings.root.erase("title");
-  if (input.settings.root.contains("garment")) input.settings.root["garment"].erase("subdivide");
-  if (input.settings.root.contains("simulation"))
+  input.settings.root->erase("lines");
+  input.settings.root->erase("output");
+  input.settings.root->erase("title");
+  if (input.settings.root->contains("garment")) input.settings.root["garment"].erase("subdivide");
+  if (input.settings.root->contains("simulation"))
     input.settings.root["simulation"].erase(
         "integrator");  // which open_sketch() chose, and no search for rest uses
   return input;
@@ -165,9 +166,9 @@ Sketch open_sketch(const SceneInput& input, Listener& listener, const fs::path& 
   sketch.made_for = made_for;
   require_regular(made_for);
   for (const char* list : {"lines", "pins"}) io::make_list(sketch.scene.settings, list);
-  if (!sketch.scene.settings.root.value("material", Json::object()).contains("preset"))
+  if (!sketch.scene.settings.root->value("material", Json::object()).contains("preset"))
     io::set_value(sketch.scene.settings, "material.preset", "cotton", "the studio");
-  const Json simulation = sketch.scene.settings.root.value("simulation", Json::object());
+  const Json simulation = sketch.scene.settings.root->value("simulation", Json::object());
   if (!simulation.contains("integrator") && !simulation.contains("dt"))  // at a step that can be watched
     io::set_value(sketch.scene.settings, "simulation.integrator", "implicit", "the studio");
   const io::Scene scene = scene_in_frame(sketch.scene);
@@ -235,7 +236,7 @@ SketchedGarment draw_sketch(const Sketch& sketch, const Json& strokes, Listener&
     drawn.shown = shown_mesh(drawn.file.mesh, round.report.undisplaced, round.first_line);
     drawn.told = std::move(collecting.texts);
     for (const Warning& w : report.failures) drawn.told.push_back(w.text);
-    pin_new_vertices(drawn.file.mesh, sketch.garment.mesh.number_of_vertices(), pins);
+    pin_new_vertices(drawn.file.mesh, sketch.garment.mesh->number_of_vertices(), pins);
   }
   for (const std::vector<int>& group : pins)
     for (const int v : group) drawn.shown.pinned.push_back(std::uint32_t(v));
@@ -318,10 +319,10 @@ std::string shape_bits(const io::MeshFile& file) {
   const auto add = [&bits](const auto& number) {
     bits.append(reinterpret_cast<const char*>(&number), sizeof number);
   };
-  for (const geometry::Vertex v : file.mesh.vertices())
-    for (int k = 0; k < 3; ++k) add(double(file.mesh.point(v)[k]));
-  for (const geometry::Face f : file.mesh.faces())
-    for (const geometry::Vertex v : file.mesh.vertices_around_face(file.mesh.halfedge(f))) add(v.idx());
+  for (const geometry::Vertex v : file.mesh->vertices())
+    for (int k = 0; k < 3; ++k) add(double(file.mesh->point(v)[k]));
+  for (const geometry::Face f : file.mesh->faces())
+    for (const geometry::Vertex v : file.mesh->vertices_around_face(file.mesh->halfedge(f))) add(v.idx());
   return bits;
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "geometry/mesh/property_names.h"
 #include "geometry/rest/masses.h"

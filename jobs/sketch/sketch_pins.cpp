@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
 
@@ -15,7 +16,7 @@ namespace {
 
 using geometry::BorderLoop;
 
-Json pins_of(const Sketch& sketch) { return sketch.scene.settings.root.value("pins", Json::array()); }
+Json pins_of(const Sketch& sketch) { return sketch.scene.settings.root->value("pins", Json::array()); }
 
 bool is_of(const Json& pin, const char* key) { return pin.size() == 1 && pin.contains(key); }
 
@@ -181,7 +182,7 @@ Json pins_after(const Sketch& sketch, const io::MeshFile& made) {
           pin["loop"] = name_of_loop(after, i);
     } else if (is_of(pin, "vertices")) {
       std::vector<std::vector<int>> list{pin["vertices"].get<std::vector<int>>()};
-      pin_new_vertices(made.mesh, sketch.garment.mesh.number_of_vertices(), list);
+      pin_new_vertices(made.mesh, sketch.garment.mesh->number_of_vertices(), list);
       pin["vertices"] = list[0];
     }
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/sketch/sketch_rounds.h"
 
+#include <nlohmann/json.hpp>
 #include <utility>
 
 namespace furrow::jobs {
@@ -11,7 +12,7 @@ constexpr const char* strokes_name = "the drawing";  // in memory, in place of a
 /// A round of these strokes, under the options of the sketch's own round.
 Json round_of(const Sketch& sketch, double time) {
   Json round = Json::object();
-  for (const Json& other : sketch.scene.settings.root.value("lines", Json::array()))
+  for (const Json& other : sketch.scene.settings.root->value("lines", Json::array()))
     if (other.value("time", 0.0) == 0) round = other;
   round.erase("without");
   round["time"] = time;

@@ -2,6 +2,7 @@
 #include "jobs/sketch/sketch_tangles.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "jobs/base/measure_crossings.h"
 
@@ -14,7 +15,7 @@ constexpr std::uint8_t pale[] = {216, 210, 198};
 }  // namespace
 
 std::vector<std::uint8_t> marked_crossings(const geometry::Mesh& mesh,
-                                           const std::vector<geometry::Face>& faces,
+                                           const std::vector<geometry::Index<geometry::Face>>& faces,
                                            std::vector<std::uint8_t> base) {
   std::vector<char> crosses(mesh.num_vertices(), 0);
   for (const geometry::Face f : faces)
@@ -32,11 +33,11 @@ SketchTangles find_tangles(const Sketch& sketch, const Json& strokes, Listener& 
   const ClothCrossings crossings = measure_crossings(file);
   SketchTangles tangles{crossings.pairs, "The cloth crosses itself nowhere.", {}, {}};
   std::vector<std::uint8_t> base;
-  for (std::size_t i = 0; i < file.mesh.number_of_vertices(); ++i) base.insert(base.end(), pale, pale + 3);
+  for (std::size_t i = 0; i < file.mesh->number_of_vertices(); ++i) base.insert(base.end(), pale, pale + 3);
   tangles.colours = marked_crossings(file.mesh, crossings.faces, std::move(base));
   if (crossings.pairs == 0) return tangles;
   tangles.words = words(crossings) + ". It is magenta.";
-  const geometry::Point& at = crossings.places.at(0).centre;
+  const auto& at = crossings.places.at(0).centre;
   tangles.worst = {at.x(), at.y(), at.z()};
   return tangles;
 }

@@ -24,7 +24,7 @@ SketchTangles find_tangles(const Sketch& sketch, const Json& strokes, Listener& 
 
 /// `base` [red, green, blue of each vertex, in 0 to 255] with the vertices of these faces in magenta.
 std::vector<std::uint8_t> marked_crossings(const geometry::Mesh& mesh,
-                                           const std::vector<geometry::Face>& faces,
+                                           const std::vector<geometry::Index<geometry::Face>>& faces,
                                            std::vector<std::uint8_t> base);
 
 }  // namespace furrow::jobs

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "bridge/arrays/gather.h"
+#include "geometry/figure/repair_body.h"
 #include "physics/body/exact_distance.h"
 
 namespace furrow::tests {

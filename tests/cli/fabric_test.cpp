@@ -30,7 +30,7 @@ std::size_t faces_with_warp(const std::string& path) {
   const auto map = geometry::find_map(file.mesh, geometry::attribute::warp);
   std::size_t n = 0;
   if (map)
-    for (geometry::Face f : file.mesh.faces()) n += std::isfinite((*map)[f][0]);
+    for (geometry::Face f : file.mesh->faces()) n += std::isfinite((*map)[f][0]);
   return n;
 }
 
@@ -88,12 +88,12 @@ TEST_CASE("drape: cloth with threads writes where its warp runs, and says what i
   REQUIRE(usual.exit_code == 0);
   CHECK(usual.err.find("nothing says where its threads run") != std::string::npos);
   const io::MeshFile worn = io::read_mesh(scratch / "a.ply");
-  CHECK(faces_with_warp(scratch / "a.ply") == worn.mesh.number_of_faces());
+  CHECK(faces_with_warp(scratch / "a.ply") == worn.mesh->number_of_faces());
   const Run again = run_furrow("drape " + (scratch / "a.ply") + " --pin-loop top -o " + (scratch / "b.ply"));
   CHECK(again.err.find("nothing says") == std::string::npos);
   CHECK(run_furrow("subdivide " + (scratch / "a.ply") + " --subdivide 1 -o " + (scratch / "fine.ply"))
             .exit_code == 0);
-  CHECK(faces_with_warp(scratch / "fine.ply") == 4 * worn.mesh.number_of_faces());
+  CHECK(faces_with_warp(scratch / "fine.ply") == 4 * worn.mesh->number_of_faces());
   REQUIRE(run_furrow("render " + (scratch / "a.ply") + " --weave --size 200,200 -o " + (scratch / "w.png"))
               .exit_code == 0);
   CHECK(io::read_png(scratch / "w.png").width == 200);

@@ -76,7 +76,7 @@ TEST_CASE("fit: a stretched tube on a column has the known strain, room and dist
     INFO(attribute.name);
     const bool strain = attribute.name == "strain";
     CHECK((strain || attribute.name == "fit_distance"));
-    for (auto v : file.mesh.vertices())
+    for (auto v : file.mesh->vertices())
       CHECK(attribute.values[v] == Approx(strain ? 0.16 / 0.148 - 1 : 0.01).epsilon(0.01));
   }
   // The coloured garment is a garment: it knows its rest itself now, and gives the same report.

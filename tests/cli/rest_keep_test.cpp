@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "geometry/mesh/mesh.h"
 #include "hung_patch.h"
 #include "io/mesh/mesh_file.h"
 #include "run_furrow.h"
@@ -66,10 +67,10 @@ time = 0.05
 
 double farthest(const std::string& a, const std::string& b) {
   const io::MeshFile first = io::read_mesh(a), second = io::read_mesh(b);
-  REQUIRE(first.mesh.number_of_vertices() == second.mesh.number_of_vertices());
+  REQUIRE(first.mesh->number_of_vertices() == second.mesh->number_of_vertices());
   double most = 0;
-  for (const geometry::Vertex v : first.mesh.vertices())
-    most = std::max(most, std::sqrt(CGAL::squared_distance(first.mesh.point(v), second.mesh.point(v))));
+  for (const geometry::Vertex v : first.mesh->vertices())
+    most = std::max(most, std::sqrt(CGAL::squared_distance(first.mesh->point(v), second.mesh->point(v))));
   return most;
 }
 

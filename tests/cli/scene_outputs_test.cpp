@@ -104,9 +104,9 @@ TEST_CASE(
   const io::MeshFile slab = io::read_mesh(meshes + "slab.obj");
   for (int frame = 0; frame < 3; ++frame) {
     io::MeshFile moved = slab;
-    for (auto v : moved.mesh.vertices()) {
-      const auto p = moved.mesh.point(v);
-      moved.mesh.point(v) = {p.x(), p.y() + 0.01 * frame, p.z()};
+    for (auto v : moved.mesh->vertices()) {
+      const auto p = moved.mesh->point(v);
+      moved.mesh->point(v) = {p.x(), p.y() + 0.01 * frame, p.z()};
     }
     io::write_mesh(scratch / ("rise_" + std::to_string(frame) + ".obj"), moved);
   }
@@ -184,9 +184,9 @@ TEST_CASE("scene outputs: wrinkle --state draws into a stopped simulation, and t
   CHECK(report["inserted"].get<int>() > 2);
   const io::SavedState before = io::read_state(state), after = io::read_state(more);
   CHECK(after.simulation.time == before.simulation.time);
-  CHECK(after.file.mesh.number_of_vertices() ==
-        before.file.mesh.number_of_vertices() + report["inserted"].get<std::size_t>());
-  CHECK(after.simulation.compensation.force.size() == after.file.mesh.number_of_vertices());
+  CHECK(after.file.mesh->number_of_vertices() ==
+        before.file.mesh->number_of_vertices() + report["inserted"].get<std::size_t>());
+  CHECK(after.simulation.compensation.force.size() == after.file.mesh->number_of_vertices());
   const json run = t.run("--state " + more + " -o " + end);
   CHECK(run["time"].get<double>() == Approx(0.1));
   CHECK(run["lines"].size() == 2);
@@ -208,7 +208,7 @@ TEST_CASE("scene outputs: the scenes of the demo are read, and begin", "[scenes]
     REQUIRE(run.exit_code == 0);
     const json report = json::parse(run.out);
     CHECK(report["lines"].size() >= 2);
-    CHECK(io::read_mesh(out).mesh.number_of_vertices() > 1500);
+    CHECK(io::read_mesh(out).mesh->number_of_vertices() > 1500);
   }
 }
 

@@ -96,17 +96,17 @@ TEST_CASE("drape: a size stays the size that it was cut, refined or not, at ches
                     body = " --body " + mannequin + " ";
   io::MeshFile coarse = io::read_mesh(source_dir() / "meshes/shirt.obj");
   coarse.mesh = coarser(coarse.mesh, 0.0165);  // so that it takes seconds
-  REQUIRE(coarse.mesh.is_valid());
-  REQUIRE(coarse.mesh.number_of_vertices() < 2500);
+  REQUIRE(coarse.mesh->is_valid());
+  REQUIRE(coarse.mesh->number_of_vertices() < 2500);
   io::write_mesh(shirt, coarse);
   REQUIRE(run_furrow("sdf " + mannequin + " -o " + field + " -q").exit_code == 0);
   double ease[2][2][3] = {}, cut_girth[2][3] = {}, chest = 0;
   for (int size = 0; size < 3; ++size) {  // 5 % narrower, as it is, 5 % wider
     io::MeshFile made = coarse;
     const double width = 0.95 + 0.05 * size;
-    for (auto v : made.mesh.vertices()) {
-      const auto p = made.mesh.point(v);
-      made.mesh.point(v) = {width * p.x(), p.y(), width * p.z()};
+    for (auto v : made.mesh->vertices()) {
+      const auto p = made.mesh->point(v);
+      made.mesh->point(v) = {width * p.x(), p.y(), width * p.z()};
     }
     const std::string cut = scratch / ("cut" + std::to_string(size) + ".obj"), sized = scratch / "sized.ply";
     io::write_mesh(cut, made);

@@ -43,11 +43,11 @@ TEST_CASE("transfer: it brings the wrinkles back to the skirt's own faces, chart
     const io::MeshFile file = io::read_mesh(path);
     std::vector<double> all;
     const auto texture = *geometry::find_map(file.mesh, geometry::attribute::texture);
-    for (auto f : file.mesh.faces()) {
+    for (auto f : file.mesh->faces()) {
       all.push_back((*geometry::find_map(file.mesh, geometry::attribute::group))[f]);
       all.push_back((*geometry::find_map(file.mesh, geometry::attribute::material))[f]);
-      for (auto h : file.mesh.halfedges_around_face(file.mesh.halfedge(f)))
-        all.insert(all.end(), {double(file.mesh.target(h)), texture[h][0], texture[h][1]});
+      for (auto h : file.mesh->halfedges_around_face(file.mesh->halfedge(f)))
+        all.insert(all.end(), {double(file.mesh->target(h)), texture[h][0], texture[h][1]});
     }
     return std::pair(all, file.group_names);
   };
@@ -103,8 +103,8 @@ TEST_CASE("transfer: skin weights and other columns of a PLY survive wrinkle, --
     const auto list = geometry::vertex_attributes(file.mesh);
     REQUIRE(list.size() == 4);
     CHECK(list[3].name == "wear");
-    CHECK(file.mesh.number_of_vertices() > 121);
-    for (auto v : file.mesh.vertices()) {
+    CHECK(file.mesh->number_of_vertices() > 121);
+    for (auto v : file.mesh->vertices()) {
       CHECK(list[0].values[v] == Approx(limited ? 0.5 / 0.875 : 0.5).epsilon(1e-12));
       CHECK(list[2].values[v] == Approx(limited ? 0 : 0.125).epsilon(1e-12));
       if (v.idx() < 121 && list[3].values[v] != v.idx() % 11) ++changed;
@@ -129,7 +129,7 @@ TEST_CASE("transfer: bake tells the wrinkled skirt to a fraction of a millimetre
     CHECK(report["check"][way]["p95"].get<double>() < 1e-3);
     CHECK(report["check"][way]["area"].get<double>() > 0.3);
   }
-  CHECK(io::read_mesh(applied).mesh.number_of_vertices() == report["check"]["vertices"]);
+  CHECK(io::read_mesh(applied).mesh->number_of_vertices() == report["check"]["vertices"]);
   CHECK(io::read_png16(prefix + "_normal.png").width == 256);
   CHECK(run_furrow("bake " + skirt.mesh + " " + skirt.wrinkled + " -o " + prefix + " --texels 0").exit_code ==
         2);

@@ -30,7 +30,7 @@ inline void require(bool held) {
 inline void read_mesh(const std::string& bytes, io::MeshFormat format) {
   std::istringstream in(bytes);
   const io::MeshFile file = io::read_mesh(in, format, "fuzz");
-  require(file.mesh.is_valid(false) && file.mesh.number_of_faces() > 0);
+  require(file.mesh->is_valid(false) && file.mesh->number_of_faces() > 0);
   io::find_wrinkle_record(file);
 }
 

@@ -6,6 +6,7 @@ furrow_add_tests(geometry geometry LIBRARIES furrow::geometry SOURCES
   mesh/closest_point_test.cpp
   mesh/edge_metric_test.cpp
   mesh/measures_test.cpp
+  mesh/mesh_fwd_test.cpp
   mesh/select_vertices_test.cpp
   mesh/crossings_test.cpp
   mesh/self_intersections_test.cpp

@@ -59,7 +59,7 @@ inline std::string bytes_of(const std::filesystem::path& path) {
 inline io::MeshFile mesh_of(const jobs::MeshInput& input) { return std::get<io::MeshFile>(input); }
 
 inline std::vector<geometry::Point> positions(const io::MeshFile& file) {
-  return {file.mesh.points().begin(), file.mesh.points().end()};
+  return {file.mesh->points().begin(), file.mesh->points().end()};
 }
 
 }  // namespace furrow::tests

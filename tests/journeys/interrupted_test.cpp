@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
+#include "geometry/mesh/mesh.h"
 #include "io/mesh/mesh_file.h"
 #include "journey.h"
 
@@ -25,7 +26,7 @@ TEST_CASE("journeys: Ctrl-C ends every long command with a whole file or a sente
   CAPTURE(words, after, run.exit_code, run.err);
   CHECK((run.exit_code == 0 || run.exit_code == 4 || run.exit_code == 130));
   if (std::filesystem::exists("out.ply"))
-    CHECK(furrow::io::read_mesh("out.ply").mesh.number_of_faces() > 0);
+    CHECK(furrow::io::read_mesh("out.ply").mesh->number_of_faces() > 0);
   else
     CHECK((!writes || !run.err.empty()));
 }

@@ -55,10 +55,10 @@ TEST_CASE("journeys: a suit of three layers in one file rests without a crossing
   io::MeshFile suit;
   for (const double by : {0.0, 0.012, 0.024}) {
     const geometry::Mesh part = widened("tunic.obj", by);
-    const auto first = geometry::Vertex::size_type(suit.mesh.number_of_vertices());
-    for (const geometry::Vertex v : part.vertices()) suit.mesh.add_vertex(part.point(v));
+    const auto first = geometry::Vertex::size_type(suit.mesh->number_of_vertices());
+    for (const geometry::Vertex v : part.vertices()) suit.mesh->add_vertex(part.point(v));
     const auto at = [&](int i) { return geometry::Vertex(first + geometry::Vertex::size_type(i)); };
-    for (const auto& [a, b, c] : bridge::triangles_of(part)) suit.mesh.add_face(at(a), at(b), at(c));
+    for (const auto& [a, b, c] : bridge::triangles_of(part)) suit.mesh->add_face(at(a), at(b), at(c));
   }
   io::write_mesh("suit.obj", suit);
   const auto report = step("drape suit.obj --body she.obj --subdivide 0 -o worn.ply");

@@ -43,19 +43,19 @@ void check_kept(const io::SavedState& half, const io::SavedState& more) {
   const auto v = *geometry::find_map(half.file.mesh, geometry::attribute::velocity),
              w = *geometry::find_map(more.file.mesh, geometry::attribute::velocity);
   std::size_t stayed = 0, held = 0, same_speed = 0;
-  for (Vertex i : half.file.mesh.vertices()) {
-    if (half.file.mesh.point(i) != more.file.mesh.point(i)) continue;
+  for (Vertex i : half.file.mesh->vertices()) {
+    if (half.file.mesh->point(i) != more.file.mesh->point(i)) continue;
     ++stayed;
     same_speed += v[i] == w[i];
     if (before.steps.anchors.empty()) continue;
     held += before.steps.anchors[i].limit >= 0;
     REQUIRE(before.steps.anchors[i] == after.steps.anchors[i]);
   }
-  CHECK(stayed > half.file.mesh.number_of_vertices() / 2);
+  CHECK(stayed > half.file.mesh->number_of_vertices() / 2);
   CHECK(same_speed > stayed / 2);  // the others share what momentum the lines took or brought
   CHECK(held > 10);
   CHECK(before.steps.self.friction.size() >= after.steps.self.friction.size());
-  CHECK(more.file.mesh.number_of_vertices() > half.file.mesh.number_of_vertices());
+  CHECK(more.file.mesh->number_of_vertices() > half.file.mesh->number_of_vertices());
 }
 
 void draw_on_the_way(const std::string& garment, const std::string& options) {

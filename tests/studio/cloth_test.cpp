@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstring>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "tests/studio/visitor.h"
@@ -186,7 +187,7 @@ TEST_CASE("studio cloth: tangles are told, and shown where they are") {
   }
   io::MeshFile crossed;
   crossed.mesh = tests::icosphere(2, 0.1, {0, 0, 0});
-  crossed.mesh.join(tests::icosphere(2, 0.1, {0.1, 0, 0}));
+  crossed.mesh->join(tests::icosphere(2, 0.1, {0.1, 0, 0}));
   io::write_mesh(desk.folder / "crossed.ply", crossed);
   io::set_value(desk.scene.settings, "garment.mesh", "crossed.ply", "test");
   io::set_value(desk.scene.settings, "pins", Json::array(), "test");
@@ -257,7 +258,7 @@ TEST_CASE("studio cloth: it is given away in four formats, also on the vertices 
     const Json answer = page.ask("give", {{"as", as}});
     INFO(answer.dump());
     const std::string file = answer.at("done").at("file");
-    CHECK(io::read_mesh(file).mesh.number_of_faces() == head_of(page.cloth, 3));
+    CHECK(io::read_mesh(file).mesh->number_of_faces() == head_of(page.cloth, 3));
   }
   for (int i = 0; i < 2; ++i) {  // again: it is replaced
     const Json answer = page.ask("give", {{"as", "original"}});

@@ -2,6 +2,7 @@
 // What no page of ours would send: each is refused in words, and changes nothing, in memory or on disk.
 #include <catch2/catch.hpp>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "tests/studio/visitor.h"

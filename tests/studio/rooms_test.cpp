@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "geometry/figure/shape_body.h"
 #include "tests/studio/visitor.h"
@@ -84,8 +85,8 @@ struct MadeForAnother {
     anna_text = tests::bytes_of(tests::source_dir() / "meshes/mannequin.obj");
     io::MeshFile berta = io::read_mesh(tests::source_dir() / "meshes/mannequin.obj");
     geometry::shape_body(berta.mesh, {1.86, 0.92, 0, 0});
-    for (const geometry::Vertex v : berta.mesh.vertices())
-      berta.mesh.point(v) = berta.mesh.point(v) + geometry::Vector(0.7, 0, -0.3);
+    for (const geometry::Vertex v : berta.mesh->vertices())
+      berta.mesh->point(v) = berta.mesh->point(v) + geometry::Vector(0.7, 0, -0.3);
     io::write_mesh(folder / "berta.obj", berta);
     berta_text = tests::bytes_of(folder / "berta.obj");
   }
@@ -101,7 +102,7 @@ struct MadeForAnother {
   /// A ridge at the front, as a page draws it.
   Json ridge() const {
     std::vector<geometry::Point> front;
-    for (const geometry::Point& p : skirt.mesh.points())
+    for (const geometry::Point& p : skirt.mesh->points())
       if (std::abs(p.x()) < 0.012 && p.z() > 0 && p.y() < 0.8) front.push_back(p);
     std::sort(front.begin(), front.end(), [](const auto& a, const auto& b) { return a.y() > b.y(); });
     Json points = Json::array();

@@ -3,6 +3,8 @@
 #include <catch2/catch.hpp>
 
 #include "bridge/arrays/gather.h"
+#include "geometry/figure/repair_body.h"
+#include "geometry/mesh/mesh.h"
 
 using namespace furrow;
 using geometry::Mesh;

@@ -29,12 +29,12 @@ namespace {
 
 constexpr double width = 0.08, height = 0.012;
 
-Stroke line(std::vector<Point> points, double k = height, double w = width) {
+Stroke line(const std::vector<Point>& points, double k = height, double w = width) {
   Stroke stroke;
   stroke.name = "fold";
   stroke.height = k;
   stroke.width = w;
-  stroke.points = std::move(points);
+  stroke.points.assign(points.begin(), points.end());
   return stroke;
 }
 
@@ -359,7 +359,7 @@ void check_self_crossing(const WrinkleReport& report, const Mesh& mesh, const Dr
                          double tolerance) {
   REQUIRE(report.lines.size() == 1);
   REQUIRE(report.lines[0].chains.size() == 1);
-  const std::vector<Vertex>& chain = report.lines[0].chains[0];
+  const auto& chain = report.lines[0].chains[0];
   CHECK(report.fold->invalid_faces == 0);
   CHECK(invalid_rest_faces(mesh) == 0);
   std::set<Vertex> seen;

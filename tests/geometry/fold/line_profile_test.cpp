@@ -19,10 +19,10 @@ namespace {
 
 constexpr double fold_width = 0.06, fold_height = 0.01;
 
-Stroke fold(std::vector<Point> points, double height = fold_height, double sharpness = 0.5) {
+Stroke fold(const std::vector<Point>& points, double height = fold_height, double sharpness = 0.5) {
   Stroke stroke;
   stroke.height = height;
-  stroke.points = std::move(points);
+  stroke.points.assign(points.begin(), points.end());
   stroke.width = fold_width;
   stroke.sharpness = sharpness;
   return stroke;

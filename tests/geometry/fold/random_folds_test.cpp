@@ -93,7 +93,7 @@ Stroke random_fold(const Mesh& mesh, std::mt19937& random, int number) {
     if (apart < 0.08 || apart > 0.4) continue;
     try {
       const PlacedStroke placed = place_path_stroke(mesh, ends, false, stroke.name);
-      stroke.points = placed.points;
+      stroke.points.assign(placed.points.begin(), placed.points.end());
       stroke.closed = false;
     } catch (const ContentError&) {  // no cloth joins them
     }

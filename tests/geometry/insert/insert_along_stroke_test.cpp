@@ -171,7 +171,7 @@ TEST_CASE("insert_along_stroke: the same input gives the same bits") {
     options.mean_edge = 0.08;
     insert_along_stroke(mesh, diagonal(), 0, options);
     Stroke across = diagonal();
-    for (Point& p : across.points) p = Point(p.x(), 1 - p.y(), 0);
+    for (auto& p : across.points) p = {p.x(), 1 - p.y(), 0};
     insert_along_stroke(mesh, across, 1, options);
     return fingerprint(mesh);
   };

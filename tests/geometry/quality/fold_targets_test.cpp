@@ -77,7 +77,8 @@ void check_line(const Mesh& before, const Stroke& stroke, std::vector<std::strin
   const WrinkleReport report = wrinkle(mesh, {&stroke, 1}, folding());
   const double h = report.mean_structural_length;
   const auto curves = prepare_strokes(before, {&stroke, 1}, {0.05, h, 0}).curves;
-  const LineQuality q = measure_line(surface_over(mesh, report.undisplaced), curves.at(0));
+  const std::vector<Point> flat(report.undisplaced.begin(), report.undisplaced.end());
+  const LineQuality q = measure_line(surface_over(mesh, flat), curves.at(0));
   const auto fault = [&](const std::string& what, double value) {
     faults.push_back(what + " " + std::to_string(value));
   };
@@ -123,7 +124,8 @@ TEST_CASE("fold_quality: one fold on meshes of 20, 10 and 5 mm have one height",
     const Mesh before = equilateral_sheet(0.5, 0.5, edge);
     const auto curves =
         prepare_strokes(before, {&stroke, 1}, {0.05, report.mean_structural_length, 0}).curves;
-    const LineQuality q = measure_line(surface_over(mesh, report.undisplaced), curves.at(0));
+    const std::vector<Point> flat(report.undisplaced.begin(), report.undisplaced.end());
+    const LineQuality q = measure_line(surface_over(mesh, flat), curves.at(0));
     heights.push_back(q.crest_height.value() / 0.012);
     fitted.push_back(q.fitted_height.value() / 0.012);
     INFO(edge << " ripple " << *q.crest_ripple << " fit " << *q.fit << " crest " << heights.back());

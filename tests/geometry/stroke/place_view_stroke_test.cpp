@@ -39,7 +39,7 @@ Mesh bumpy(double amount) {
 TracedStroke trace(const Mesh& mesh, const std::vector<Point>& points,
                    const std::vector<std::size_t>& breaks = {}) {
   Stroke stroke;
-  stroke.points = points;
+  stroke.points.assign(points.begin(), points.end());
   stroke.breaks = breaks;
   return trace_stroke(mesh, SurfaceProjector(mesh), stroke, {0.05, 0.05});
 }

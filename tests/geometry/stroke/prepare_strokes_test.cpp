@@ -17,11 +17,11 @@ namespace {
 
 constexpr double edge = 0.02;
 
-Stroke line(std::vector<Point> points, double height = 0.01) {
+Stroke line(const std::vector<Point>& points, double height = 0.01) {
   Stroke stroke;
   stroke.name = "fold";
   stroke.height = height;
-  stroke.points = std::move(points);
+  stroke.points.assign(points.begin(), points.end());
   return stroke;
 }
 

@@ -21,9 +21,9 @@ TracedStroke trace(const Mesh& mesh, const Stroke& stroke, double h, double max_
   return trace_stroke(mesh, SurfaceProjector(mesh), stroke, {max_distance, h});
 }
 
-Stroke polyline(std::vector<Point> points) {
+Stroke polyline(const std::vector<Point>& points) {
   Stroke stroke;
-  stroke.points = std::move(points);
+  stroke.points.assign(points.begin(), points.end());
   return stroke;
 }
 

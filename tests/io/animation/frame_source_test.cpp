@@ -75,7 +75,7 @@ TEST_CASE("frame_source: numbers give a sequence its order and times, gaps are t
   const geometry::Mesh rest = file.mesh;
   for (const int number : {998, 999, 1000, 1003, 12000}) {
     const std::vector<Vec3> x = moved(rest, number);
-    for (const geometry::Vertex v : rest.vertices()) file.mesh.point(v) = bridge::to_cgal(x[v]);
+    for (const geometry::Vertex v : rest.vertices()) file.mesh->point(v) = bridge::to_cgal(x[v]);
     const std::string digits = number < 1000 ? "0" + std::to_string(number) : std::to_string(number);
     io::write_mesh(folder / ("body_" + digits + ".obj"), file);
   }

@@ -187,7 +187,7 @@ TEST_CASE("write_mesh: by ending, into place, nothing is written for what we do 
   const io::MeshFile cube = read_from(cube_obj, io::MeshFormat::obj);
   for (const char* name : {"a.obj", "a.PLY", "a.off", "a.Stl", "a.GLB"}) {
     io::write_mesh(folder / name, cube);
-    CHECK(io::read_mesh(folder / name).mesh.number_of_faces() == 12);
+    CHECK(io::read_mesh(folder / name).mesh->number_of_faces() == 12);
   }
   CHECK(files_in(folder) == 5);
   for (const char* name : {"a.gltf", "a.xyz", "a", "-"}) {

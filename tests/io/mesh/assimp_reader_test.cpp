@@ -71,8 +71,8 @@ TEST_CASE("glTF: skin weights become attributes by the joints' names") {
   REQUIRE(list.size() == 2);
   CHECK(list[0].name == "weight_upper_arm");
   CHECK(list[1].name == "weight_hand");
-  REQUIRE(file.mesh.number_of_vertices() == 4);
-  for (const Vertex v : file.mesh.vertices()) {
+  REQUIRE(file.mesh->number_of_vertices() == 4);
+  for (const Vertex v : file.mesh->vertices()) {
     const bool first = v.idx() < 3;  // merged points keep the weights of the first
     CHECK(list[0].values[v] == (first ? 0.25 : 1));
     CHECK(list[1].values[v] == (first ? 0.75 : 0));
@@ -85,7 +85,7 @@ TEST_CASE("glTF: a skinned mesh lies where its joints bind it, whatever its node
   bound.scene["nodes"][1]["translation"] = {0, 1, 0};
   bound.scene["nodes"][2]["translation"] = {0, 0.5, 0};
   const io::MeshFile file = bound.read();
-  CHECK(file.mesh.point(Vertex(3)) == raw);
+  CHECK(file.mesh->point(Vertex(3)) == raw);
   CHECK(file.warnings.size() == 1);  // single precision
 
   // an armature in centimetres that lies on its back
@@ -94,7 +94,7 @@ TEST_CASE("glTF: a skinned mesh lies where its joints bind it, whatever its node
                                   {"scale", {0.01, 0.01, 0.01}},
                                   {"rotation", {-std::sqrt(0.5), 0, 0, std::sqrt(0.5)}}});
   bound.scene["scenes"][0]["nodes"][1] = 3;
-  const Point lying = bound.read().mesh.point(Vertex(3));
+  const Point lying = bound.read().mesh->point(Vertex(3));
   CHECK(lying.x() == Approx(0).margin(1e-6));
   CHECK(lying.y() == Approx(0.001).margin(1e-6));
   CHECK(lying.z() == Approx(-0.01).margin(1e-6));
@@ -105,7 +105,7 @@ TEST_CASE("glTF: a skeleton in another pose than it was bound in is told") {
   posed.scene["nodes"][1]["translation"] = {0, 1, 0};
   posed.scene["nodes"][2]["translation"] = {0.3, 0.5, 0};
   const io::MeshFile file = posed.read();
-  CHECK(file.mesh.point(Vertex(3)) == Point(0, 1, static_cast<double>(0.1F)));
+  CHECK(file.mesh->point(Vertex(3)) == Point(0, 1, static_cast<double>(0.1F)));
   REQUIRE(file.warnings.size() == 2);
   CHECK(file.warnings[1].find("sleeve: its skeleton stands in another pose") != std::string::npos);
 }
@@ -137,7 +137,7 @@ TEST_CASE("glTF: damaged files are read or refused, this process lives on") {
       ++files;
       try {
         const io::MeshFile file = io::read_mesh(folder / "a.glb");
-        CHECK(file.mesh.is_valid(false));
+        CHECK(file.mesh->is_valid(false));
       } catch (const ContentError&) {
         ++refused;
       }
@@ -216,20 +216,20 @@ void store_as_integers(Seam& seam, const char* attribute, int type, bool normali
 
 /// How far apart two meshes of the same faces are at most: vertices, texture coordinates, weights.
 std::array<double, 3> differences(const io::MeshFile& a, const io::MeshFile& b) {
-  REQUIRE(a.mesh.number_of_vertices() == b.mesh.number_of_vertices());
-  REQUIRE(a.mesh.number_of_faces() == b.mesh.number_of_faces());
+  REQUIRE(a.mesh->number_of_vertices() == b.mesh->number_of_vertices());
+  REQUIRE(a.mesh->number_of_faces() == b.mesh->number_of_faces());
   std::array<double, 3> most{};
-  for (const Vertex v : a.mesh.vertices())
-    most[0] = std::max(most[0], std::sqrt(CGAL::squared_distance(a.mesh.point(v), b.mesh.point(v))));
+  for (const Vertex v : a.mesh->vertices())
+    most[0] = std::max(most[0], std::sqrt(CGAL::squared_distance(a.mesh->point(v), b.mesh->point(v))));
   const auto ta = *find_map(a.mesh, attribute::texture), tb = *find_map(b.mesh, attribute::texture);
-  for (const Halfedge h : a.mesh.halfedges())
-    for (std::size_t k = 0; k < 2 && !a.mesh.is_border(h); ++k)
+  for (const Halfedge h : a.mesh->halfedges())
+    for (std::size_t k = 0; k < 2 && !a.mesh->is_border(h); ++k)
       most[1] = std::max(most[1], std::abs(ta[h][k] - tb[h][k]));
   const auto wa = vertex_attributes(a.mesh), wb = vertex_attributes(b.mesh);
   REQUIRE(wa.size() == wb.size());
   for (std::size_t i = 0; i < wa.size(); ++i) {
     REQUIRE(wa[i].name == wb[i].name);
-    for (const Vertex v : a.mesh.vertices())
+    for (const Vertex v : a.mesh->vertices())
       most[2] = std::max(most[2], std::abs(wa[i].values[v] - wb[i].values[v]));
   }
   return most;
@@ -307,13 +307,13 @@ TEST_CASE("glTF: files with integers from other programs are read as those with 
   CHECK(textures <= 1 / 65535.);
   CHECK(weights <= 3 / 255.);  // whole bytes that sum up to 255
   for (const VertexAttribute& a : vertex_attributes(bytes.mesh))
-    for (const Vertex v : bytes.mesh.vertices())
+    for (const Vertex v : bytes.mesh->vertices())
       CHECK(std::abs(255 * a.values[v] - std::round(255 * a.values[v])) < 1e-4);
-  CHECK(no_matrices.mesh.number_of_vertices() == words.mesh.number_of_vertices());
+  CHECK(no_matrices.mesh->number_of_vertices() == words.mesh->number_of_vertices());
   CHECK(differences(no_matrices, words)[1] <= 1 / 65535.);
   const auto has_box = [](const io::MeshFile& file, const Point& low, const Point& high) {
     CGAL::Bbox_3 box;
-    for (const Point& p : file.mesh.points()) box += p.bbox();
+    for (const Point& p : file.mesh->points()) box += p.bbox();
     CHECK(std::sqrt(CGAL::squared_distance(low, Point(box.xmin(), box.ymin(), box.zmin()))) < 0.01);
     CHECK(std::sqrt(CGAL::squared_distance(high, Point(box.xmax(), box.ymax(), box.zmax()))) < 0.01);
   };

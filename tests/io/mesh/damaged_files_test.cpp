@@ -42,10 +42,10 @@ std::string text_stl() {
 void survive(const std::string& bytes, MeshFormat format) {
   try {
     const io::MeshFile file = read_from(bytes, format);
-    RC_ASSERT(file.mesh.is_valid(false));
-    RC_ASSERT(file.mesh.number_of_faces() > 0u);
-    for (const Vertex v : file.mesh.vertices())
-      for (int k = 0; k < 3; ++k) RC_ASSERT(std::abs(file.mesh.point(v)[k]) <= 1e9);
+    RC_ASSERT(file.mesh->is_valid(false));
+    RC_ASSERT(file.mesh->number_of_faces() > 0u);
+    for (const Vertex v : file.mesh->vertices())
+      for (int k = 0; k < 3; ++k) RC_ASSERT(std::abs(file.mesh->point(v)[k]) <= 1e9);
   } catch (const ContentError& error) {
     RC_ASSERT(std::string(error.what()).starts_with("test:"));
   }
@@ -57,7 +57,7 @@ std::string damaged(std::string bytes, const std::vector<std::pair<unsigned shor
 }
 
 void check_damage(const std::string& valid, MeshFormat format) {
-  REQUIRE(read_from(valid, format).mesh.number_of_faces() > 1);
+  REQUIRE(read_from(valid, format).mesh->number_of_faces() > 1);
   CHECK(rc::check("cut short",
                   [&](unsigned short at) { survive(valid.substr(0, at % valid.size()), format); }));
   using Changes = std::vector<std::pair<unsigned short, unsigned char>>;

@@ -140,8 +140,8 @@ TEST_CASE("glTF out: a GLB goes back as it came: places, textures, materials, no
   CHECK(back.material_names == file.material_names);
   const auto textures = *find_map(file.mesh, attribute::texture),
              again = *find_map(back.mesh, attribute::texture);
-  for (const Halfedge h : file.mesh.halfedges())
-    if (!file.mesh.is_border(h)) CHECK(textures[h] == again[h]);
+  for (const Halfedge h : file.mesh->halfedges())
+    if (!file.mesh->is_border(h)) CHECK(textures[h] == again[h]);
   CHECK(glb_of(back).bytes == out.bytes);
 }
 
@@ -160,9 +160,9 @@ TEST_CASE("glTF out: a skin deforms what is written as it did what was read") {
     std::size_t moved = 0;
     for (std::size_t v = 0; v < rest.size(); ++v) {
       double nearest = 1;
-      for (const Vertex m : file.mesh.vertices())
-        nearest = std::min(nearest, (Eigen::Vector3d(file.mesh.point(m).x(), file.mesh.point(m).y(),
-                                                     file.mesh.point(m).z()) -
+      for (const Vertex m : file.mesh->vertices())
+        nearest = std::min(nearest, (Eigen::Vector3d(file.mesh->point(m).x(), file.mesh->point(m).y(),
+                                                     file.mesh->point(m).z()) -
                                      rest[v])
                                         .norm());
       CHECK(nearest < 1e-7);
@@ -170,9 +170,9 @@ TEST_CASE("glTF out: a skin deforms what is written as it did what was read") {
     }
     CHECK(moved > 0);
     io::MeshFile back = read_glb(out.bytes);
-    REQUIRE(back.mesh.number_of_vertices() == file.mesh.number_of_vertices());
+    REQUIRE(back.mesh->number_of_vertices() == file.mesh->number_of_vertices());
     for (const VertexAttribute& joint : vertex_attributes(file.mesh))
-      for (const Vertex v : file.mesh.vertices())
+      for (const Vertex v : file.mesh->vertices())
         CHECK(ensure_vertex_attribute(back.mesh, joint.name)[v] == Approx(joint.values[v]).margin(1e-7));
   }
 }
@@ -234,7 +234,7 @@ TEST_CASE("glTF out: what one vertex has too many or too few weights for is told
   io::MeshFile many = read_glb(crowd.glb());
   REQUIRE(vertex_attributes(many.mesh).size() == 5);
   for (VertexAttribute& joint : vertex_attributes(many.mesh))
-    for (const Vertex v : many.mesh.vertices()) joint.values[v] = joint.name == "weight_hand" ? 0.1 : 0.3;
+    for (const Vertex v : many.mesh->vertices()) joint.values[v] = joint.name == "weight_hand" ? 0.1 : 0.3;
   const WrittenGlb four = glb_of(many);
   CHECK(tells(four.lost, "all but the four largest skin weights of 4 vertices"));
   CHECK(tells(four.lost, "--max-weights 4"));
@@ -335,7 +335,7 @@ TEST_CASE("glTF out: materials of the same name stay apart, nodes of the same na
   CHECK(out.glb.primitive(0, 0)["material"] == 0);
   CHECK(out.glb.primitive(0, 1)["material"] == 1);
   CHECK_FALSE(out.glb.scene["nodes"][1].contains("mesh"));
-  CHECK(read_glb(out.bytes).mesh.number_of_faces() == 4);
+  CHECK(read_glb(out.bytes).mesh->number_of_faces() == 4);
   seam.scene["nodes"][1]["name"] = "cuff";
   const WrittenGlb apart = glb_of(read_glb(seam.glb()));
   CHECK(apart.lost.empty());
@@ -395,15 +395,15 @@ TEST_CASE("glTF out: a mesh from elsewhere is one node in metres, with a primiti
   CHECK(*std::ranges::max_element(x) == static_cast<float>(4 / 3.0));
   CHECK(out.glb.primitive()["attributes"].contains("COLOR_0"));
   io::MeshFile white = file;
-  for (const Vertex v : white.mesh.vertices()) ensure_map(white.mesh, attribute::color)[v] = {1, 1, 1, 1};
+  for (const Vertex v : white.mesh->vertices()) ensure_map(white.mesh, attribute::color)[v] = {1, 1, 1, 1};
   CHECK_FALSE(glb_of(white).glb.primitive()["attributes"].contains("COLOR_0"));
   for (const char* words : {"in metres, y up", "lines, the state of rest", "struts", "comments", "groups"}) {
     INFO(words);
     CHECK(tells(out.lost, words));
   }
   const io::MeshFile back = read_glb(out.bytes);
-  CHECK(back.mesh.number_of_faces() == file.mesh.number_of_faces());
-  CHECK(back.mesh.number_of_vertices() == file.mesh.number_of_vertices());
+  CHECK(back.mesh->number_of_faces() == file.mesh->number_of_faces());
+  CHECK(back.mesh->number_of_vertices() == file.mesh->number_of_vertices());
   io::MeshFile weighted = file;
   ensure_vertex_attribute(weighted.mesh, "weight_hand"), ensure_vertex_attribute(weighted.mesh, "mask");
   CHECK(tells(glb_of(weighted).lost, "the skin weights weight_hand"));
@@ -414,7 +414,7 @@ TEST_CASE("glTF out: what cannot be is refused, and nothing is written") {
   TemporaryFolder folder;
   CHECK_THROWS_AS(io::write_mesh(folder / "a.gltf", decorated_grid(2)), std::invalid_argument);
   io::MeshFile empty;
-  empty.mesh.add_vertex(Point(0, 0, 0));
+  empty.mesh->add_vertex(Point(0, 0, 0));
   CHECK_THROWS_AS(io::write_mesh(folder / "a.glb", empty), std::invalid_argument);
   CHECK_FALSE(std::filesystem::exists(folder / "a.glb"));
   io::MeshFile flat = read_glb(Seam().glb());

@@ -22,8 +22,8 @@ TEST_CASE("hostile files: every hostile file is read or refused with a content e
     try {
       const io::MeshFile file = io::read_mesh(entry.path());
       ++read;
-      CHECK(file.mesh.is_valid(false));
-      CHECK(CGAL::is_triangle_mesh(file.mesh));
+      CHECK(file.mesh->is_valid(false));
+      CHECK(CGAL::is_triangle_mesh(*file.mesh));
       for (const auto format : {io::MeshFormat::obj, io::MeshFormat::ply, io::MeshFormat::off}) {
         const io::MeshFile back = read_from(written(file, format), format);
         CHECK(same_positions(back.mesh, file.mesh));
@@ -91,5 +91,5 @@ TEST_CASE("hostile files: what is repaired, and how") {
   CHECK(read("mixed_winding.obj").repairs.reversed_faces > 0);
   CHECK(read("mixed_winding.obj").repairs.duplicated_vertices == 0);
   CHECK_FALSE(read("inside_out.obj").repairs.any());
-  CHECK(read("thirdparty/geometry-central/dodecahedron_poly.obj").mesh.number_of_faces() == 36);
+  CHECK(read("thirdparty/geometry-central/dodecahedron_poly.obj").mesh->number_of_faces() == 36);
 }

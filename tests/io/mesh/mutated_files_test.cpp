@@ -101,8 +101,8 @@ void check_mutants(const std::string& valid, const std::function<void(const std:
 void check_mesh_mutants(const std::string& valid, MeshFormat format) {
   check_mutants(valid, [&](const std::string& bytes) {
     const io::MeshFile file = read_from(bytes, format);
-    REQUIRE(file.mesh.is_valid(false));
-    REQUIRE(file.mesh.number_of_faces() > 0);
+    REQUIRE(file.mesh->is_valid(false));
+    REQUIRE(file.mesh->number_of_faces() > 0);
   });
 }
 
@@ -150,7 +150,7 @@ TEST_CASE("mutated files: GLB", "[long]") {
   const io::MeshFile file = garment();
   io::AnimationWriter writer(folder / "v.glb", file.mesh, {});
   std::vector<physics::Vec3> x;
-  for (const Point& p : file.mesh.points()) x.emplace_back(p.x(), p.y(), p.z());
+  for (const Point& p : file.mesh->points()) x.emplace_back(p.x(), p.y(), p.z());
   writer.add(x);
   writer.close();
   check_mutants(slurp(folder / "v.glb"),
@@ -175,9 +175,9 @@ TEST_CASE("mutated files: states") {
   io::SavedState state;
   state.file = garment();
   auto velocity = ensure_map(state.file.mesh, attribute::velocity);
-  for (const Vertex v : state.file.mesh.vertices()) velocity[v] = {0.1, 0, 0.2};
+  for (const Vertex v : state.file.mesh->vertices()) velocity[v] = {0.1, 0, 0.2};
   state.pins = {{1, 2}, {}};
-  state.scene = {{"garment", {{"mesh", "../g.obj"}}}, {"simulation", {{"seconds", 2}}}};
+  *state.scene = {{"garment", {{"mesh", "../g.obj"}}}, {"simulation", {{"seconds", 2}}}};
   check_mutants(io::state_bytes(state), [](const std::string& bytes) { io::parse_state(bytes, "test"); });
 }
 
@@ -185,7 +185,7 @@ TEST_CASE("mutated files: PC2 and MDD") {
   TemporaryFolder folder;
   const io::MeshFile file = garment();
   std::vector<physics::Vec3> x;
-  for (const Point& p : file.mesh.points()) x.emplace_back(p.x(), p.y(), p.z());
+  for (const Point& p : file.mesh->points()) x.emplace_back(p.x(), p.y(), p.z());
   for (const char* name : {"a.pc2", "a.mdd"}) {
     io::AnimationWriter writer(folder / name, file.mesh, {});
     for (int frame = 0; frame < 3; ++frame) writer.add(x);

@@ -29,7 +29,7 @@ TEST_CASE("OBJ: quads are cut 0-1-2, 0-2-3 and counted") {
   CHECK_FALSE(file.repairs.any());
   const auto corners = corners_of(file.mesh);
   CHECK(std::vector(corners.begin(), corners.begin() + 6) == std::vector<std::size_t>{0, 3, 2, 0, 2, 1});
-  CHECK(CGAL::is_closed(file.mesh));
+  CHECK(CGAL::is_closed(*file.mesh));
 }
 
 TEST_CASE("OBJ: the same cube in many spellings") {
@@ -53,8 +53,8 @@ TEST_CASE("OBJ: the same cube in many spellings") {
 
 TEST_CASE("OBJ: numbers are read in double, and malformed ones are errors") {
   const io::MeshFile file = obj("v +1.5 -2.e1 .1\nv 1e-400 0.1234567890123456789 1E2\nv 0 1 0\nf 1 2 3\n");
-  CHECK(file.mesh.point(Vertex(0)) == Point(1.5, -20, 0.1));
-  CHECK(file.mesh.point(Vertex(1)) == Point(0, 0.1234567890123456789, 100));
+  CHECK(file.mesh->point(Vertex(0)) == Point(1.5, -20, 0.1));
+  CHECK(file.mesh->point(Vertex(1)) == Point(0, 0.1234567890123456789, 100));
   for (const char* bad :
        {"1,5", "abc", "0x10", "1e", "--1", "+-1", "1.#IND", "1e999", "nan", "-inf", "1e10", "1_0"}) {
     INFO(bad);
@@ -133,9 +133,9 @@ TEST_CASE("OBJ: lines without a face are a chain for those who ask for one, and 
         "test: no faces, only lines: a chain, which furrow simulate moves; here a mesh with "
         "at least one triangle is needed");
   const io::MeshFile file = obj(text, {.metres_per_unit = 0.01, .up = io::Axis::z, .chains = true});
-  CHECK(file.mesh.number_of_vertices() == 4);
-  CHECK(file.mesh.number_of_faces() == 0);
-  CHECK(file.mesh.point(Vertex(2)) == Point(0, 0.5, 0));
+  CHECK(file.mesh->number_of_vertices() == 4);
+  CHECK(file.mesh->number_of_faces() == 0);
+  CHECK(file.mesh->point(Vertex(2)) == Point(0, 0.5, 0));
   REQUIRE(file.polylines.size() == 1);
   CHECK(file.polylines[0].vertices == std::vector<std::size_t>{0, 1, 2});
   CHECK_FALSE(file.repairs.any());
@@ -159,7 +159,7 @@ TEST_CASE("OBJ: colours to 255 become colours to 1") {
 TEST_CASE("OBJ: unit and axis of the file are turned into ours and back") {
   const io::ReadOptions millimetres{.metres_per_unit = 0.5, .up = io::Axis::z};
   const io::MeshFile file = obj("v 2 4 6\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", millimetres);
-  CHECK(file.mesh.point(Vertex(0)) == Point(1, 3, -2));
+  CHECK(file.mesh->point(Vertex(0)) == Point(1, 3, -2));
   const std::string text = written(file, MeshFormat::obj, {.metres_per_unit = 0.5, .up = io::Axis::z});
   CHECK(text.starts_with("# written by furrow\nv 2 4 6\n"));
   CHECK_THROWS_AS(obj(cube_obj, {.metres_per_unit = 0}), std::invalid_argument);
@@ -200,11 +200,11 @@ TEST_CASE("OBJ: drawn lines of a mesh and free polylines are written as l elemen
   REQUIRE(back.polylines.size() == 1);
   CHECK(back.polylines[0].points == file.polylines[0].points);
   CHECK(back.polylines[0].closed);
-  CHECK(back.mesh.number_of_vertices() == 11);
-  CHECK(obj(written(back, MeshFormat::obj)).mesh.number_of_vertices() == 11);
+  CHECK(back.mesh->number_of_vertices() == 11);
+  CHECK(obj(written(back, MeshFormat::obj)).mesh->number_of_vertices() == 11);
   auto line_edge = ensure_map(file.mesh, attribute::line_edge);
   const auto mark = [&](unsigned a, unsigned b) {
-    line_edge[file.mesh.edge(file.mesh.halfedge(Vertex(a), Vertex(b)))] = true;
+    line_edge[file.mesh->edge(file.mesh->halfedge(Vertex(a), Vertex(b)))] = true;
   };
   mark(0, 1), mark(2, 1), mark(2, 3);
   back = obj(written(file, MeshFormat::obj));
@@ -212,7 +212,7 @@ TEST_CASE("OBJ: drawn lines of a mesh and free polylines are written as l elemen
   auto vertices = back.polylines[0].vertices;
   if (vertices.front() == 3) std::reverse(vertices.begin(), vertices.end());
   CHECK(vertices == std::vector<std::size_t>{0, 1, 2, 3});
-  CHECK(back.mesh.number_of_vertices() == 8);
+  CHECK(back.mesh->number_of_vertices() == 8);
 }
 
 TEST_CASE("OBJ: a material library is named from the folder that the mesh is written to") {
@@ -246,7 +246,7 @@ TEST_CASE("OBJ: a material library is named from the folder that the mesh is wri
 
 TEST_CASE("OBJ: positions that are not finite are not written") {
   io::MeshFile file = obj(cube_obj);
-  file.mesh.point(Vertex(3)) = Point(0, unset_value, 0);
+  file.mesh->point(Vertex(3)) = Point(0, unset_value, 0);
   std::ostringstream out;
   for (const auto format : {MeshFormat::obj, MeshFormat::ply, MeshFormat::off, MeshFormat::stl})
     CHECK_THROWS_AS(io::write_mesh(out, format, file), std::invalid_argument);

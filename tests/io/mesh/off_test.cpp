@@ -22,7 +22,7 @@ TEST_CASE("OFF: mesh and colours come back with the same bits") {
   const io::MeshFile back = off(written(file, MeshFormat::off));
   CHECK(same_positions(file.mesh, back.mesh));
   CHECK(corners_of(file.mesh) == corners_of(back.mesh));
-  for (const Vertex v : file.mesh.vertices())
+  for (const Vertex v : file.mesh->vertices())
     CHECK((*find_map(file.mesh, attribute::color))[v] == (*find_map(back.mesh, attribute::color))[v]);
   io::MeshFile plain = read_from(cube_obj, MeshFormat::obj);
   CHECK(written(plain, MeshFormat::off).starts_with("OFF\n8 12 0\n0 0 0\n"));
@@ -46,7 +46,7 @@ TEST_CASE("OFF: normals, colours and texture coordinates of vertices") {
   const auto color = *find_map(file.mesh, attribute::color);
   CHECK(color[Vertex(0)] == Color{1, 0, 0.2, 1});
   CHECK(color[Vertex(1)] == Color{0, 0.5, 1, 1});
-  const Halfedge h = file.mesh.halfedge(Vertex(2), Vertex(0));
+  const Halfedge h = file.mesh->halfedge(Vertex(2), Vertex(0));
   CHECK((*find_map(file.mesh, attribute::texture))[h] == TextureCoordinate{0.5, 0.25});
 }
 

@@ -127,8 +127,8 @@ TEST_CASE("PLY: copies of a vertex carry its columns, parts of a face those of t
   const auto mass = *find_map(file.mesh, attribute::mass);
   const auto rest = *find_map(file.mesh, attribute::rest_position);
   std::size_t copies = 0;
-  for (const Vertex v : file.mesh.vertices()) {
-    if (file.mesh.point(v) != file.mesh.point(Vertex(0))) continue;
+  for (const Vertex v : file.mesh->vertices()) {
+    if (file.mesh->point(v) != file.mesh->point(Vertex(0))) continue;
     ++copies;
     CHECK(line[v] == 7);
     CHECK(mass[v] == 0.5);
@@ -137,7 +137,7 @@ TEST_CASE("PLY: copies of a vertex carry its columns, parts of a face those of t
   CHECK(copies >= 2);
   const auto generation = *find_map(file.mesh, attribute::generation);
   std::vector<int> generations;
-  for (const Face f : file.mesh.faces()) generations.push_back(generation[f]);
+  for (const Face f : file.mesh->faces()) generations.push_back(generation[f]);
   CHECK(generations == std::vector<int>{0, 1, 2, 2});
 }
 
@@ -158,8 +158,8 @@ TEST_CASE("PLY: edge values are found by their vertices after flips and removals
   CGAL::Euler::remove_face(mesh.halfedge(Face(0)), mesh);
   REQUIRE(mesh.has_garbage());
   const io::MeshFile back = read_from(written(file, MeshFormat::ply), MeshFormat::ply);
-  REQUIRE(back.mesh.number_of_faces() == mesh.number_of_faces());
-  REQUIRE(back.mesh.number_of_edges() == mesh.number_of_edges());
+  REQUIRE(back.mesh->number_of_faces() == mesh.number_of_faces());
+  REQUIRE(back.mesh->number_of_edges() == mesh.number_of_edges());
   const auto by_ends = [](const Mesh& m) {
     std::set<std::tuple<Point, Point, double>> all;
     for (const Edge e : m.edges()) {
@@ -179,7 +179,7 @@ TEST_CASE("PLY: a mesh without maps gets no properties and no edge element") {
   };
   CHECK(header_of().find("property uchar diagonal") != std::string::npos);  // its faces have four corners
   auto diagonal = *find_map(cube.mesh, attribute::diagonal);
-  cube.mesh.remove_property_map(diagonal);
+  cube.mesh->remove_property_map(diagonal);
   const std::string header = header_of();
   for (const char* absent : {"edge", "strut", "rest_length", "line", "mass", "red", "group", "texcoord"})
     CHECK(header.find(absent) == std::string::npos);
@@ -202,9 +202,9 @@ TEST_CASE("PLY: lengths are written in the file's unit, masses stay kilograms") 
   const io::MeshFile back = read_from(bytes, MeshFormat::ply, {.metres_per_unit = 0.25, .up = io::Axis::z});
   CHECK((*find_map(raw.mesh, attribute::rest_length))[Edge(2)] ==
         4 * (*find_map(file.mesh, attribute::rest_length))[Edge(2)]);
-  CHECK(raw.mesh.point(Vertex(3)) == Point(4 * file.mesh.point(Vertex(3)).x(),
-                                           -4 * file.mesh.point(Vertex(3)).z(),
-                                           4 * file.mesh.point(Vertex(3)).y()));
+  CHECK(raw.mesh->point(Vertex(3)) == Point(4 * file.mesh->point(Vertex(3)).x(),
+                                            -4 * file.mesh->point(Vertex(3)).z(),
+                                            4 * file.mesh->point(Vertex(3)).y()));
   CHECK(same_positions(back.mesh, file.mesh));
   check_same_map(file.mesh, back.mesh, attribute::rest_length);
   check_same_map(file.mesh, raw.mesh, attribute::mass);
@@ -255,10 +255,10 @@ TEST_CASE("PLY: text and big-endian bytes of other programs are read") {
   for (const std::string& bytes : {text, big}) {
     const io::MeshFile file = read_from(bytes, MeshFormat::ply);
     CHECK(corners_of(file.mesh) == std::vector<std::size_t>{0, 1, 2, 0, 2, 3});
-    CHECK(file.mesh.point(Vertex(3)) == Point(0, 1, 0.5));
+    CHECK(file.mesh->point(Vertex(3)) == Point(0, 1, 0.5));
     CHECK((*find_map(file.mesh, attribute::color))[Vertex(0)] == Color{1, 0, 0.2, 1});
     CHECK(file.repairs.triangulated_faces == 1);
-    const Halfedge h = file.mesh.halfedge(Vertex(2), Vertex(3));
+    const Halfedge h = file.mesh->halfedge(Vertex(2), Vertex(3));
     CHECK((*find_map(file.mesh, attribute::texture))[h] == TextureCoordinate{0, 0.5});
     CHECK(file.comments == std::vector<std::string>{"made by hand"});
     REQUIRE(file.warnings.size() == 2);
@@ -274,7 +274,7 @@ TEST_CASE("PLY: texture coordinates of vertices go to the corners") {
                            "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
                            "0 0 0 0.5 0.25\n1 0 0 0.75 0\n0 1 0 0 1\n3 0 1 2\n";
   const io::MeshFile file = read_from(text, MeshFormat::ply);
-  const Halfedge h = file.mesh.halfedge(Vertex(2), Vertex(0));
+  const Halfedge h = file.mesh->halfedge(Vertex(2), Vertex(0));
   CHECK((*find_map(file.mesh, attribute::texture))[h] == TextureCoordinate{0.5, 0.25});
 }
 
@@ -282,8 +282,8 @@ TEST_CASE("PLY: vertices carry their texture coordinates for Blender, unless a s
   io::MeshFile file;
   file.mesh = grid(2, 2);
   auto texture = ensure_map(file.mesh, attribute::texture);
-  for (const Halfedge h : file.mesh.halfedges()) {
-    const Point& p = file.mesh.point(file.mesh.target(h));
+  for (const Halfedge h : file.mesh->halfedges()) {
+    const Point& p = file.mesh->point(file.mesh->target(h));
     texture[h] = {p.x() / 3, p.y() / 7};
   }
   const std::string bytes = written(file, MeshFormat::ply);
@@ -300,7 +300,7 @@ TEST_CASE("PLY: vertices carry their texture coordinates for Blender, unless a s
   check_same_map(file.mesh, seen.mesh, attribute::texture);
   for (const TextureCoordinate& other : {TextureCoordinate{0.5, 0.5}, attribute::texture.default_value}) {
     io::MeshFile seam = file;
-    (*find_map(seam.mesh, attribute::texture))[seam.mesh.halfedge(Face(3))] = other;
+    (*find_map(seam.mesh, attribute::texture))[seam.mesh->halfedge(Face(3))] = other;
     CHECK(written(seam, MeshFormat::ply).find("property double s") == std::string::npos);
   }
   io::MeshFile clash = file;
@@ -386,10 +386,10 @@ TEST_CASE("PLY: lengths of a triangle stand for the edges between its corners, w
                 MeshFormat::ply);
   REQUIRE(file.repairs.reversed_faces == 1);
   const auto rest = *find_map(file.mesh, attribute::triangle_rest_length);
-  for (const Halfedge h : file.mesh.halfedges()) {
-    if (file.mesh.is_border(h)) continue;
-    const int f = int(std::size_t(file.mesh.face(h))) + 1;
-    const int a = int(std::size_t(file.mesh.source(h))), b = int(std::size_t(file.mesh.target(h)));
+  for (const Halfedge h : file.mesh->halfedges()) {
+    if (file.mesh->is_border(h)) continue;
+    const int f = int(std::size_t(file.mesh->face(h))) + 1;
+    const int a = int(std::size_t(file.mesh->source(h))), b = int(std::size_t(file.mesh->target(h)));
     CHECK((rest[h] == 100 * f + 10 * a + b || rest[h] == 100 * f + 10 * b + a));
   }
 }
@@ -445,12 +445,12 @@ TEST_CASE("PLY: strips of triangles are read, as scanners' files have them") {
       "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
       "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n5 5 5\n9 0 1 2 3 4 -1 3 5 4\n";
   const io::MeshFile file = read_from(text, io::MeshFormat::ply);
-  CHECK(file.mesh.number_of_faces() == 4);
+  CHECK(file.mesh->number_of_faces() == 4);
   CHECK(file.warnings.empty());
-  for (const geometry::Face f : file.mesh.faces()) {
+  for (const geometry::Face f : file.mesh->faces()) {
     std::vector<geometry::Point> p;
-    for (const auto v : file.mesh.vertices_around_face(file.mesh.halfedge(f)))
-      p.push_back(file.mesh.point(v));
+    for (const auto v : file.mesh->vertices_around_face(file.mesh->halfedge(f)))
+      p.push_back(file.mesh->point(v));
     if (p[0].z() + p[1].z() + p[2].z() == 0) CHECK(CGAL::cross_product(p[1] - p[0], p[2] - p[0]).z() > 0);
   }
   std::string wrong = text;

@@ -34,10 +34,10 @@ TEST_CASE("real files: real meshes have the manifest's numbers of vertices and f
                              {"accuracy/spot_catmullclark_x2.ply", 2930, 5856, 0, 5856, true}}));
   INFO(fact.path);
   const io::MeshFile file = io::read_mesh(shared_dir() / "meshes" / fact.path);
-  CHECK(file.mesh.number_of_vertices() == fact.vertices);
+  CHECK(file.mesh->number_of_vertices() == fact.vertices);
   CHECK(file.repairs.triangulated_faces == fact.cut);
-  CHECK(file.mesh.number_of_faces() == fact.triangles);
-  CHECK(CGAL::is_closed(file.mesh) == fact.closed);
+  CHECK(file.mesh->number_of_faces() == fact.triangles);
+  CHECK(CGAL::is_closed(*file.mesh) == fact.closed);
   CHECK_FALSE(file.repairs.any());
   CHECK(file.repairs.isolated_vertices == 0);
   CHECK(fact.triangles >= fact.faces);
@@ -49,15 +49,15 @@ TEST_CASE("real files: a control mesh with n-gons is triangulated, the dress's t
     return;
   }
   const io::MeshFile spot = io::read_mesh(shared_dir() / "meshes/closed/spot_control.obj");
-  CHECK(spot.mesh.number_of_vertices() == 188);
+  CHECK(spot.mesh->number_of_vertices() == 188);
   CHECK(spot.repairs.triangulated_faces == 160 + 16);
-  CHECK(CGAL::is_closed(spot.mesh));
-  CHECK(spot.mesh.number_of_faces() == 2 * 188 - 4);  // Euler, genus 0
+  CHECK(CGAL::is_closed(*spot.mesh));
+  CHECK(spot.mesh->number_of_faces() == 2 * 188 - 4);  // Euler, genus 0
   const io::MeshFile dress = io::read_mesh(shared_dir() / "meshes/cloth/dc_dress_v3.obj");
   CHECK(dress.repairs.duplicated_vertices == 2);
   CHECK(dress.repairs.reversed_faces == 0);
-  CHECK(dress.mesh.number_of_vertices() == 4536 + 2);
-  CHECK(dress.mesh.number_of_faces() == 8801);
+  CHECK(dress.mesh->number_of_vertices() == 4536 + 2);
+  CHECK(dress.mesh->number_of_faces() == 8801);
 }
 
 TEST_CASE("real files: a real garment passes through PLY with the same bytes") {

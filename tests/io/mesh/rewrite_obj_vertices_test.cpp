@@ -36,7 +36,7 @@ TEST_CASE("rewrite_obj_vertices: normals are made for what moved, in the file's 
   CHECK(moved.find("0.6 0.8 0") == std::string::npos);  // no corner had it
   CHECK(moved.find("f 1/1/1 2/1/2 3/1/3\nf 1//1 -5//3 4//4\n") != std::string::npos);
   const io::MeshFile back = read_from(moved, io::MeshFormat::obj);
-  CHECK(back.mesh.number_of_faces() == 3);
+  CHECK(back.mesh->number_of_faces() == 3);
 }
 
 TEST_CASE("rewrite_obj_vertices: a material library is named from the folder that the text is for") {
@@ -74,10 +74,10 @@ TEST_CASE("rewrite_obj_vertices: a file of quads reads back as what it was, move
   std::string text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1 4/1\n";
   io::MeshFile file = read_from(text, io::MeshFormat::obj);
   std::vector<Point> positions;
-  for (const auto v : file.mesh.vertices())
-    positions.push_back(file.mesh.point(v) + geometry::Vector(0, 0, 1. / 3));
+  for (const auto v : file.mesh->vertices())
+    positions.push_back(file.mesh->point(v) + geometry::Vector(0, 0, 1. / 3));
   const io::MeshFile back =
       read_from(io::rewrite_obj_vertices(text, "a.obj", positions), io::MeshFormat::obj);
   CHECK(back.repairs.triangulated_faces == 1);
-  for (const auto v : back.mesh.vertices()) CHECK(back.mesh.point(v) == positions[v]);
+  for (const auto v : back.mesh->vertices()) CHECK(back.mesh->point(v) == positions[v]);
 }

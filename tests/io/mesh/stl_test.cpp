@@ -25,11 +25,11 @@ std::string facet(const std::string& a, const std::string& b, const std::string&
 TEST_CASE("STL: a mesh of float positions comes back, vertices in the order of the corners") {
   const io::MeshFile cube = read_from(cube_obj, MeshFormat::obj);
   const io::MeshFile back = stl(written(cube, MeshFormat::stl));
-  CHECK(back.mesh.number_of_vertices() == 8);
-  CHECK(back.mesh.number_of_faces() == 12);
+  CHECK(back.mesh->number_of_vertices() == 8);
+  CHECK(back.mesh->number_of_faces() == 12);
   CHECK(back.repairs.merged_vertices == 36 - 8);
-  CHECK(CGAL::is_closed(back.mesh));
-  CHECK(back.mesh.point(Vertex(1)) == Point(0, 1, 0));
+  CHECK(CGAL::is_closed(*back.mesh));
+  CHECK(back.mesh->point(Vertex(1)) == Point(0, 1, 0));
   CHECK(written(back, MeshFormat::stl) == written(cube, MeshFormat::stl));
 }
 
@@ -41,14 +41,14 @@ TEST_CASE("STL: solids of text become groups, only exactly equal positions are m
   const io::MeshFile file = stl(text);
   CHECK(file.group_names == std::vector<std::string>{"left", "right"});
   CHECK((*find_map(file.mesh, attribute::group))[Face(2)] == 1);
-  CHECK(file.mesh.number_of_vertices() == 7);
+  CHECK(file.mesh->number_of_vertices() == 7);
   CHECK(file.repairs.merged_vertices == 2);
 }
 
 TEST_CASE("STL: a binary file that begins with solid is read as binary") {
   std::string bytes = written(read_from(cube_obj, MeshFormat::obj), MeshFormat::stl);
   bytes.replace(0, 5, "solid");
-  CHECK(stl(bytes).mesh.number_of_faces() == 12);
+  CHECK(stl(bytes).mesh->number_of_faces() == 12);
 }
 
 TEST_CASE("STL: errors name the line or the face") {

@@ -97,7 +97,7 @@ TEST_CASE("baked_maps: PLY carries rest positions and attributes of vertices, in
   auto rest = geometry::ensure_map(file.mesh, geometry::attribute::rest_position);
   auto mask = geometry::ensure_vertex_attribute(file.mesh, "mask");
   auto weight = geometry::ensure_vertex_attribute(file.mesh, "weight_arm.L");
-  for (const auto v : file.mesh.vertices()) {
+  for (const auto v : file.mesh->vertices()) {
     const double x = 1 / (1.0 + double(std::size_t(v)));
     if (std::size_t(v) != 2) rest[v] = {x, 2 * x, -x};
     mask[v] = x * x;
@@ -110,7 +110,7 @@ TEST_CASE("baked_maps: PLY carries rest positions and attributes of vertices, in
     CHECK(list[1].name == "weight_arm.L");
     const auto found = geometry::find_map(back.mesh, geometry::attribute::rest_position);
     REQUIRE(found);
-    for (const auto v : back.mesh.vertices()) {
+    for (const auto v : back.mesh->vertices()) {
       CHECK(list[0].values[v] == mask[v]);
       CHECK(same_bits(list[1].values[v], weight[v]));
       for (int k = 0; k < 3; ++k)

@@ -2,6 +2,7 @@
 #include "io/scene/equivalent_flags.h"
 
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 #include "io/scene/settings_schema.h"
 

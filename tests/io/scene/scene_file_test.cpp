@@ -2,6 +2,7 @@
 #include "io/scene/scene_file.h"
 
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 #include "geometry/mesh/errors.h"
 #include "io/scene/fabrics.h"

@@ -68,7 +68,7 @@ io::SavedState state() {
   sim.steps.fresh = {3, 7};
   s.pins = {{1, 2}, {}};
   s.lines_drawn = 2;
-  s.scene = {{"garment", {{"mesh", "../g.obj"}}}, {"simulation", {{"seconds", 2}}}};
+  *s.scene = {{"garment", {{"mesh", "../g.obj"}}}, {"simulation", {{"seconds", 2}}}};
   return s;
 }
 
@@ -130,17 +130,17 @@ TEST_CASE("state_file: a state holds everything to the last bit") {
   }
   CHECK(was.pins == is.pins);
   CHECK(was.lines_drawn == is.lines_drawn);
-  CHECK(was.scene == is.scene);
+  CHECK(*was.scene == *is.scene);
   CHECK(was.file.comments == is.file.comments);
   const auto velocity = *geometry::find_map(was.file.mesh, geometry::attribute::velocity),
              read = *geometry::find_map(is.file.mesh, geometry::attribute::velocity);
   const auto generation = *geometry::find_map(was.file.mesh, geometry::attribute::generation),
              generation_read = *geometry::find_map(is.file.mesh, geometry::attribute::generation);
-  for (auto v : was.file.mesh.vertices()) {
-    CHECK(was.file.mesh.point(v) == is.file.mesh.point(v));
+  for (auto v : was.file.mesh->vertices()) {
+    CHECK(was.file.mesh->point(v) == is.file.mesh->point(v));
     CHECK(velocity[v] == read[v]);
   }
-  for (auto f : was.file.mesh.faces()) CHECK(generation[f] == generation_read[f]);
+  for (auto f : was.file.mesh->faces()) CHECK(generation[f] == generation_read[f]);
 }
 
 TEST_CASE(
@@ -173,7 +173,7 @@ TEST_CASE("state_file: a state is a mesh to others, and no state is no state") {
   const std::string bytes = io::state_bytes(state());
   std::istringstream in(bytes);
   const io::MeshFile mesh = io::read_mesh(in, io::MeshFormat::ply, "s.ply");
-  CHECK(mesh.mesh.number_of_vertices() == state().file.mesh.number_of_vertices());
+  CHECK(mesh.mesh->number_of_vertices() == state().file.mesh->number_of_vertices());
   CHECK(mesh.warnings.empty());
   io::MeshFile plain = state().file;
   io::drop_motion(plain);

@@ -69,7 +69,7 @@ TEST_CASE("resolve_strokes: a stroke drawn in the pixels of a picture lies where
     const Stroke& stroke = resolved.strokes.at(0);
     std::size_t at = 0;
     for (const Point& p : points) {
-      while (at < stroke.points.size() && CGAL::squared_distance(stroke.points[at], p) > 1e-9) ++at;
+      while (at < stroke.points.size() && CGAL::squared_distance(Point(stroke.points[at]), p) > 1e-9) ++at;
       RC_ASSERT(at < stroke.points.size());
     }
   }));
@@ -79,11 +79,11 @@ TEST_CASE("resolve_strokes: each kind by its own way, names and heights are kept
   io::MeshFile garment = wavy_garment();
   garment.group_names = {"front", "back"};
   auto texture = ensure_map(garment.mesh, attribute::texture);
-  for (Halfedge h : garment.mesh.halfedges())
-    texture[h] = {garment.mesh.point(garment.mesh.target(h)).x(),
-                  garment.mesh.point(garment.mesh.target(h)).y()};
+  for (Halfedge h : garment.mesh->halfedges())
+    texture[h] = {garment.mesh->point(garment.mesh->target(h)).x(),
+                  garment.mesh->point(garment.mesh->target(h)).y()};
   auto group = ensure_map(garment.mesh, attribute::group);
-  for (Face f : garment.mesh.faces()) group[f] = 0;
+  for (Face f : garment.mesh->faces()) group[f] = 0;
   std::vector<io::DrawnStroke> drawn(3);
   drawn[0].stroke = {"space", 0.02, {{0.1, 0.1, 0.5}, {0.2, 0.3, 0.5}}, false, Vector(0, 0, -1)};
   drawn[1].stroke = {"flat", -0.02, {}, false, {}};
@@ -98,7 +98,7 @@ TEST_CASE("resolve_strokes: each kind by its own way, names and heights are kept
   CHECK(strokes[1].height == -0.02);
   CHECK(strokes[1].points.back().x() == Approx(0.7).margin(1e-4));
   CHECK(strokes[2].closed);
-  CHECK(strokes[2].points.front() == garment.mesh.point(Vertex(30)));
+  CHECK(strokes[2].points.front() == garment.mesh->point(Vertex(30)));
   std::get<io::TextureStroke>(drawn[1].on).group = "frunt";
   CHECK(content_error([&] { io::resolve_strokes(drawn, garment); }) ==
         "stroke 'flat': the garment has no group 'frunt'; did you mean 'front'?");

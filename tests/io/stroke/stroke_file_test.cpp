@@ -12,6 +12,8 @@ using namespace furrow::tests;
 
 namespace {
 
+using Points = std::vector<Coordinates<Point>>;
+
 std::vector<Stroke> strokes(const std::string& json, const io::ReadOptions& options = {}) {
   TemporaryFolder folder;
   spit(folder / "s.json", json);
@@ -33,7 +35,7 @@ TEST_CASE("strokes: all keys, and the defaults of those that are missing") {
     {"height": 0, "points": [[5, 5, 5]]}]})");
   REQUIRE(read.size() == 3);
   CHECK(read[0].height == -0.02);
-  CHECK(read[0].points == std::vector<Point>{{0, 1, 2}, {1e-3, 0.1, -3}});
+  CHECK(read[0].points == Points{{0, 1, 2}, {1e-3, 0.1, -3}});
   CHECK(read[0].name == "fold");
   CHECK_FALSE(read[0].closed);
   CHECK(*read[0].direction == Vector(0, 0, -2));
@@ -165,7 +167,7 @@ TEST_CASE("strokes: the polylines of an OBJ file, which needs no faces") {
        "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 5 5 5\nv 6 5 5\nv 5 6 5\nl 1 2\nl 2 3\nl 4 5\nl 5 6\nl 6 4\n");
   const auto read = io::read_strokes(folder / "lines.obj", -0.03);
   REQUIRE(read.size() == 2);
-  CHECK(read[0].points == std::vector<Point>{{0, 0, 0}, {1, 0, 0}, {1, 0, 1}});
+  CHECK(read[0].points == Points{{0, 0, 0}, {1, 0, 0}, {1, 0, 1}});
   CHECK((read[0].height == -0.03 && !read[0].closed));
   CHECK((read[1].points.size() == 3 && read[1].closed));
   spit(folder / "none.obj", cube_obj);
@@ -183,7 +185,7 @@ TEST_CASE("strokes: lines of an OBJ file have the names of their objects, which 
   const auto read = io::read_strokes(folder / "lines.obj", 0.03);
   REQUIRE(read.size() == 4);
   CHECK(read[0].name == "belly");
-  CHECK(read[0].points == std::vector<Point>{{0, 0, 0}, {1, 0, 0}, {1, 0, 1}});  // chained within its object
+  CHECK(read[0].points == Points{{0, 0, 0}, {1, 0, 0}, {1, 0, 1}});  // chained within its object
   CHECK(read[0].height == Approx(0.015));
   CHECK(read[0].width.value() == Approx(0.06));
   CHECK(read[1].name == "hem");

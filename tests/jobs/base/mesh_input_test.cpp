@@ -15,14 +15,14 @@ namespace {
 /// A triangle of this size [m].
 io::MeshFile triangle(double size) {
   io::MeshFile file;
-  const auto a = file.mesh.add_vertex({0, 0, 0}), b = file.mesh.add_vertex({size, 0, 0});
-  file.mesh.add_face(a, b, file.mesh.add_vertex({0, size, 0}));
+  const auto a = file.mesh->add_vertex({0, 0, 0}), b = file.mesh->add_vertex({size, 0, 0});
+  file.mesh->add_face(a, b, file.mesh->add_vertex({0, size, 0}));
   return file;
 }
 
 double height(const io::MeshFile& file) {
   double high = 0;
-  for (geometry::Vertex v : file.mesh.vertices()) high = std::max(high, file.mesh.point(v).y());
+  for (geometry::Vertex v : file.mesh->vertices()) high = std::max(high, file.mesh->point(v).y());
   return high;
 }
 
@@ -37,7 +37,7 @@ TEST_CASE("mesh_input: a mesh in memory is what its file is when it is read") {
   for (const jobs::MeshInput& input :
        {jobs::MeshInput(folder / "triangle.ply"), jobs::MeshInput(triangle(0.5)), jobs::MeshInput("shirt")}) {
     const io::MeshFile read = jobs::read_mesh(input, context);
-    CHECK(read.mesh.number_of_faces() == 1);
+    CHECK(read.mesh->number_of_faces() == 1);
     CHECK(height(read) == 0.5);
   }
   CHECK(recorder.warnings.empty());

@@ -41,7 +41,7 @@ io::MeshFile some_mesh() {
 io::MeshFile coloured_mesh() {
   io::MeshFile file = some_mesh();
   auto colours = geometry::ensure_map(file.mesh, geometry::attribute::color);
-  for (geometry::Vertex v : file.mesh.vertices()) colours[v] = {0.1, 1, 0.25, 1};
+  for (geometry::Vertex v : file.mesh->vertices()) colours[v] = {0.1, 1, 0.25, 1};
   return file;
 }
 

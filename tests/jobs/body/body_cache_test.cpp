@@ -5,6 +5,7 @@
 #include <CGAL/boost/graph/Euler_operations.h>
 
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 #include "geometry/mesh/errors.h"
 #include "io/base/bytes_file.h"
@@ -27,7 +28,7 @@ struct Ball {
   explicit Ball(const std::string& name) : folder(tests::empty_folder(name)) {
     io::MeshFile ball;
     ball.mesh = tests::icosphere(2, 0.1);
-    CGAL::Euler::remove_face(ball.mesh.halfedge(geometry::Face(7)), ball.mesh);
+    CGAL::Euler::remove_face(ball.mesh->halfedge(geometry::Face(7)), *ball.mesh);
     io::write_mesh(folder / "ball.obj", ball);
     body.mesh = folder / "ball.obj";
     body.cache = folder / "cache";
@@ -88,7 +89,7 @@ TEST_CASE("body_cache: another unit, another tolerance and another content are o
   io::MeshFile other;
   other.mesh = tests::icosphere(1, 0.1);
   io::write_mesh(ball.body.mesh, other);
-  CHECK(ball.load(nobody).triangles.triangles.size() == other.mesh.number_of_faces());
+  CHECK(ball.load(nobody).triangles.triangles.size() == other.mesh->number_of_faces());
 }
 
 TEST_CASE("body_cache: a damaged file is told of, and made again") {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
 
@@ -125,8 +126,8 @@ TEST_CASE("keep: a wrinkled file above a ball comes to rest on it with its lines
     jobs::WrinkleJob drawn;
     io::MeshFile sheet;
     sheet.mesh = geometry::equilateral_sheet(0.3, 0.3, 0.015);
-    for (const geometry::Vertex v : sheet.mesh.vertices())
-      sheet.mesh.point(v) = {sheet.mesh.point(v).x(), 0.14, 0.15 - sheet.mesh.point(v).y()};
+    for (const geometry::Vertex v : sheet.mesh->vertices())
+      sheet.mesh->point(v) = {sheet.mesh->point(v).x(), 0.14, 0.15 - sheet.mesh->point(v).y()};
     drawn.garment = sheet;
     io::DrawnStroke ridge;
     ridge.stroke.name = "ridge";
@@ -157,9 +158,9 @@ TEST_CASE("keep: a fold that lost half of the height asked before it is kept is 
     drawn.strokes = job.scene.memory.strokes.at("ridge");
     tests::Recorder silent;
     io::MeshFile file = jobs::wrinkle(drawn, silent).garment;
-    for (const geometry::Vertex v : file.mesh.vertices()) {  // the patch was level
-      const geometry::Point p = file.mesh.point(v);
-      file.mesh.point(v) = {p.x(), 0.003 + 0.5 * (p.y() - 0.003), p.z()};
+    for (const geometry::Vertex v : file.mesh->vertices()) {  // the patch was level
+      const geometry::Point p = file.mesh->point(v);
+      file.mesh->point(v) = {p.x(), 0.003 + 0.5 * (p.y() - 0.003), p.z()};
     }
     job.scene.memory.meshes["patch"] = std::move(file);
   }

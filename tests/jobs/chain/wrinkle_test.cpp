@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "geometry/mesh/sheet.h"
@@ -54,8 +55,8 @@ TEST_CASE("wrinkle: a garment and strokes in memory come to the bits of their fi
   of_files.output = folder / "ridged.ply";
   const jobs::WrinkleReport a = jobs::wrinkle(in_memory, recorder), b = jobs::wrinkle(of_files, recorder);
   CHECK(a.drawn.round.report.lines.size() == 1);
-  CHECK(a.garment.mesh.number_of_vertices() >
-        std::get<io::MeshFile>(in_memory.garment).mesh.number_of_vertices());
+  CHECK(a.garment.mesh->number_of_vertices() >
+        std::get<io::MeshFile>(in_memory.garment).mesh->number_of_vertices());
   CHECK(tests::positions(a.garment) == tests::positions(b.garment));
   CHECK(to_json(a) == to_json(b));
   CHECK(tests::positions(io::read_mesh(folder / "ridged.ply")) == tests::positions(b.garment));
@@ -246,7 +247,7 @@ TEST_CASE(
   CHECK(refining.warned_of("refined_first"));
   CHECK(fine.rest->refinements > 0);
   CHECK_FALSE(fine.rest->floats());
-  CHECK(fine.garment.mesh.number_of_vertices() > coarse.garment.mesh.number_of_vertices());
+  CHECK(fine.garment.mesh->number_of_vertices() > coarse.garment.mesh->number_of_vertices());
   CHECK(io::find_wrinkle_record(fine.garment)->garment.empty());
   job.subdivide = 5;
   CHECK_THROWS_WITH(jobs::wrinkle(job, leaving), Catch::Contains("--subdivide 5"));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "bridge/arrays/convert.h"
@@ -229,7 +230,7 @@ TEST_CASE("chain: lines that part and close are a net, repeated parts count once
   CHECK(geometry::struts(report.garment.mesh).size() == 6);
   const auto mass = *geometry::find_map(report.garment.mesh, geometry::attribute::mass);
   double total = 0;
-  for (const geometry::Vertex v : report.garment.mesh.vertices()) total += mass[v];
+  for (const geometry::Vertex v : report.garment.mesh->vertices()) total += mass[v];
   CHECK(total == Approx(0.1 * (4 + 2 * std::hypot(0.5, 1))));
   CHECK(tests::positions(report.garment)[5] == geometry::Point(7, 7, 7));
   CHECK(tests::positions(report.garment)[4].y() < -2);

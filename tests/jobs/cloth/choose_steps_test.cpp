@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "geometry/mesh/sheet.h"
 #include "io/scene/scene_file.h"

@@ -2,6 +2,7 @@
 #include "jobs/cloth/fabric.h"
 
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 #include "geometry/mesh/errors.h"
 #include "io/scene/fabrics.h"

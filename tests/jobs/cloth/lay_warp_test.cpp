@@ -20,8 +20,8 @@ io::MeshFile sheet(bool textured = false) {
   file.mesh = tests::grid(6, 4, 0.6, 0.4);
   if (!textured) return file;
   auto map = geometry::ensure_map(file.mesh, geometry::attribute::texture);
-  for (const geometry::Halfedge h : file.mesh.halfedges()) {
-    const geometry::Point& p = file.mesh.point(file.mesh.target(h));
+  for (const geometry::Halfedge h : file.mesh->halfedges()) {
+    const geometry::Point& p = file.mesh->point(file.mesh->target(h));
     map[h] = {p.y(), -p.x()};
   }
   return file;
@@ -30,7 +30,7 @@ io::MeshFile sheet(bool textured = false) {
 /// The least |cos| of the warp to an axis, over all faces.
 double along(const io::MeshFile& file, const Vector& axis) {
   double least = 1;
-  for (const geometry::Face f : file.mesh.faces())
+  for (const geometry::Face f : file.mesh->faces())
     least = std::min(least, std::abs(geometry::threading_of(file.mesh, f).warp * axis));
   return least;
 }
@@ -84,14 +84,15 @@ TEST_CASE("lay_warp: strokes say it where they run, and the cloth around them fo
 
 TEST_CASE("lay_warp: what has no direction takes its neighbours', and a part without any is refused") {
   io::MeshFile bent = sheet();  // its outer half turned to face the axis
-  for (const geometry::Vertex v : bent.mesh.vertices()) {
-    geometry::Point& p = bent.mesh.point(v);
+  for (const geometry::Vertex v : bent.mesh->vertices()) {
+    geometry::Point& p = bent.mesh->point(v);
     if (p.x() > 0.3) p = {0.3, p.y(), p.x() - 0.3};
   }
   const Laid l = laid(bent, "x");
   CHECK(l.recorder.warned_of("warp_spread"));
-  CHECK(geometry::count_warp(l.file.mesh).known == l.file.mesh.number_of_faces());
-  CHECK(std::abs(geometry::threading_of(l.file.mesh, *std::prev(l.file.mesh.faces().end())).warp.z()) > 0.99);
+  CHECK(geometry::count_warp(l.file.mesh).known == l.file.mesh->number_of_faces());
+  CHECK(std::abs(geometry::threading_of(l.file.mesh, *std::prev(l.file.mesh->faces().end())).warp.z()) >
+        0.99);
   io::MeshFile parts = sheet();
   geometry::Mesh apart = tests::grid(2, 2);
   for (const geometry::Vertex v : apart.vertices()) {

@@ -17,12 +17,12 @@ using geometry::Point;
 
 namespace {
 
-io::DrawnStroke stroke(const std::string& name, double height, std::vector<Point> points,
+io::DrawnStroke stroke(const std::string& name, double height, const std::vector<Point>& points,
                        std::optional<double> width = {}) {
   geometry::Stroke s;
   s.name = name;
   s.height = height;
-  s.points = std::move(points);
+  s.points.assign(points.begin(), points.end());
   s.width = width;
   return {s};
 }

@@ -8,6 +8,7 @@
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/sheet.h"
+#include "jobs/chain/wrinkle.h"
 #include "physics/base/progress.h"
 #include "tests/jobs/job_folders.h"
 #include "tests/jobs/recorder.h"
@@ -86,7 +87,7 @@ TEST_CASE("quality: a fold of rule fold meets its targets, one of rule safe miss
     CHECK(report.met() == std::all_of(report.measures.begin(), report.measures.end(),
                                       [](const jobs::QualityMeasure& m) { return m.met(); }));
     CHECK(measure_of(report, "B9").value.value() ==
-          Approx(static_cast<double>(report.whole.vertices) / plain_sheet().mesh.number_of_vertices()));
+          Approx(static_cast<double>(report.whole.vertices) / plain_sheet().mesh->number_of_vertices()));
   }
 }
 
@@ -111,8 +112,8 @@ TEST_CASE("quality: a wrinkled PLY tells its strokes and its garment, or where i
   CHECK(measure_of(alone, "B9").why != "");
 
   io::MeshFile moved = io::read_mesh(folder / "w.ply");
-  for (geometry::Vertex v : moved.mesh.vertices())
-    moved.mesh.point(v) = moved.mesh.point(v) + geometry::Vector(0, 0, 0.05);
+  for (geometry::Vertex v : moved.mesh->vertices())
+    moved.mesh->point(v) = moved.mesh->point(v) + geometry::Vector(0, 0, 0.05);
   job.mesh = moved;
   const jobs::QualityReport hung = quality_of(job);
   CHECK(hung.lines.empty());
@@ -133,9 +134,10 @@ TEST_CASE("quality: cloth that moved is known by its places, though lines run al
   job.mesh = drawn;
   CHECK(quality_of(job).lines.size() == 1);
   io::MeshFile moved = drawn;
-  for (geometry::Vertex v : moved.mesh.vertices()) {  // it sags along itself, and out of its plane at the hem
-    const auto& p = moved.mesh.point(v);
-    moved.mesh.point(v) = {p.x(), 0.97 * p.y(), p.z() + 0.05 * p.y() * p.y()};
+  // It sags along itself, and out of its plane at the hem.
+  for (geometry::Vertex v : moved.mesh->vertices()) {
+    const auto& p = moved.mesh->point(v);
+    moved.mesh->point(v) = {p.x(), 0.97 * p.y(), p.z() + 0.05 * p.y() * p.y()};
   }
   job.mesh = moved;
   const jobs::QualityReport hung = quality_of(job);
@@ -150,7 +152,7 @@ TEST_CASE("quality: cloth that was only drawn on has not moved, though low folds
   for (int j = 0; j < rings; ++j)
     for (int i = 0; i < around; ++i) {
       const double a = 2 * 3.14159265358979 * (i + 0.5 * (j % 2)) / around;
-      tube.mesh.add_vertex({(0.12 + 0.02 * (j % 3)) * std::cos(a), 0.04 * j, 0.12 * std::sin(a)});
+      tube.mesh->add_vertex({(0.12 + 0.02 * (j % 3)) * std::cos(a), 0.04 * j, 0.12 * std::sin(a)});
     }
   const auto at = [](int i, int j) {
     return geometry::Vertex(static_cast<geometry::Vertex::size_type>(j * around + i % around));
@@ -158,10 +160,10 @@ TEST_CASE("quality: cloth that was only drawn on has not moved, though low folds
   for (int j = 0; j + 1 < rings; ++j)
     for (int i = 0; i < around; ++i) {
       const int odd = j % 2;
-      tube.mesh.add_face(at(i, j), at(i + odd, j + 1), at(i + 1, j));
-      tube.mesh.add_face(at(i + 1 - odd, j), at(i, j + 1), at(i + 1, j + 1));
+      tube.mesh->add_face(at(i, j), at(i + odd, j + 1), at(i + 1, j));
+      tube.mesh->add_face(at(i + 1 - odd, j), at(i, j + 1), at(i + 1, j + 1));
     }
-  REQUIRE(tube.mesh.number_of_faces() == 2 * around * (rings - 1));
+  REQUIRE(tube.mesh->number_of_faces() == 2 * around * (rings - 1));
   jobs::WrinkleJob job;
   job.garment = tube;
   std::vector<io::DrawnStroke> folds;
@@ -186,8 +188,8 @@ TEST_CASE("quality: cloth that was only drawn on has not moved, though low folds
 
 TEST_CASE("quality: knobs and thin faces that a garment may have had before its folds are no verdict") {
   io::MeshFile spiked = plain_sheet();
-  for (geometry::Vertex v : spiked.mesh.vertices())
-    spiked.mesh.point(v) = spiked.mesh.point(v) + geometry::Vector(0, 0, v.idx() % 3 == 0 ? 0.01 : 0);
+  for (geometry::Vertex v : spiked.mesh->vertices())
+    spiked.mesh->point(v) = spiked.mesh->point(v) + geometry::Vector(0, 0, v.idx() % 3 == 0 ? 0.01 : 0);
   jobs::QualityJob job;
   job.mesh = spiked;
   const jobs::QualityReport unknown = quality_of(job);
@@ -227,18 +229,18 @@ TEST_CASE("quality: a mesh without a record is measured along the lines that it 
 TEST_CASE("quality: the worst places are where the cloth is knobbly") {
   io::MeshFile spiked = plain_sheet();
   geometry::Vertex tip;
-  for (geometry::Vertex v : spiked.mesh.vertices())
-    if (!tip.is_valid() || CGAL::squared_distance(spiked.mesh.point(v), geometry::Point(0.1, 0.2, 0)) <
-                               CGAL::squared_distance(spiked.mesh.point(tip), geometry::Point(0.1, 0.2, 0)))
+  for (geometry::Vertex v : spiked.mesh->vertices())
+    if (!tip.is_valid() || CGAL::squared_distance(spiked.mesh->point(v), geometry::Point(0.1, 0.2, 0)) <
+                               CGAL::squared_distance(spiked.mesh->point(tip), geometry::Point(0.1, 0.2, 0)))
       tip = v;
-  spiked.mesh.point(tip) = spiked.mesh.point(tip) + geometry::Vector(0, 0, 0.01);
+  spiked.mesh->point(tip) = spiked.mesh->point(tip) + geometry::Vector(0, 0, 0.01);
   jobs::QualityJob job;
   job.mesh = spiked;
   const jobs::QualityReport report = quality_of(job);
   REQUIRE(!report.knobs.empty());
-  CHECK(report.knobs[0].place == spiked.mesh.point(tip));
+  CHECK(report.knobs[0].place == spiked.mesh->point(tip));
   CHECK(report.knobs[0].defect > 0);
-  CHECK(report.defects.size() == spiked.mesh.num_vertices());
+  CHECK(report.defects.size() == spiked.mesh->num_vertices());
 }
 
 TEST_CASE("quality: wrong options, and a listener that cancels") {

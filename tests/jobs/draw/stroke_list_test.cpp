@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/sheet.h"
@@ -38,5 +39,5 @@ TEST_CASE("strokes: those of a file are those of the PLY that was wrinkled with 
   list[0].stroke.width = -1;
   CHECK_THROWS_AS(jobs::check_shapes(list), std::invalid_argument);
   CHECK(jobs::info(wrinkled).at("lines") == jobs::Json{"a"});
-  CHECK(jobs::info(sheet).at("faces") == sheet.mesh.number_of_faces());
+  CHECK(jobs::info(sheet).at("faces") == sheet.mesh->number_of_faces());
 }

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "geometry/mesh/errors.h"
@@ -24,9 +25,9 @@ io::MeshFile textured_sheet(double edge) {
   io::MeshFile file;
   file.mesh = geometry::equilateral_sheet(0.4, 0.4, edge);
   auto texture = geometry::ensure_map(file.mesh, geometry::attribute::texture);
-  for (geometry::Halfedge h : file.mesh.halfedges()) {
-    const geometry::Point p = file.mesh.point(file.mesh.target(h));
-    if (!file.mesh.is_border(h)) texture[h] = {0.5 + 2.2 * p.x(), 0.06 + 2.2 * p.y()};
+  for (geometry::Halfedge h : file.mesh->halfedges()) {
+    const geometry::Point p = file.mesh->point(file.mesh->target(h));
+    if (!file.mesh->is_border(h)) texture[h] = {0.5 + 2.2 * p.x(), 0.06 + 2.2 * p.y()};
   }
   return file;
 }

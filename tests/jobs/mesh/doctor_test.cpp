@@ -120,10 +120,10 @@ TEST_CASE("doctor: a soup of loose triangles is told, refused by drape, and join
   CHECK((found->fatal && found->mendable && !found->places.empty()));
   CHECK(report.left.empty());
   CHECK(report.well());
-  CHECK(report.mesh.mesh.number_of_vertices() == sheet.number_of_vertices());
-  CHECK(report.mesh.mesh.number_of_faces() == sheet.number_of_faces());
+  CHECK(report.mesh.mesh->number_of_vertices() == sheet.number_of_vertices());
+  CHECK(report.mesh.mesh->number_of_faces() == sheet.number_of_faces());
   CHECK(geometry::measure(report.mesh.mesh).boundary_loops == 1);
-  CHECK(io::read_mesh(folder / "mended.obj").mesh.number_of_vertices() == sheet.number_of_vertices());
+  CHECK(io::read_mesh(folder / "mended.obj").mesh->number_of_vertices() == sheet.number_of_vertices());
   CHECK(drape_refused(soup, mannequin()).find("furrow doctor --repair") != std::string::npos);
 }
 
@@ -167,7 +167,7 @@ TEST_CASE(
   const jobs::DoctorReport mended = jobs::doctor(job, recorder);
   REQUIRE(find(mended.found, "two_sided"));
   CHECK(find(mended.found, "two_sided")->count == sheet.number_of_faces());
-  CHECK(mended.mesh.mesh.number_of_faces() == sheet.number_of_faces());
+  CHECK(mended.mesh.mesh->number_of_faces() == sheet.number_of_faces());
   CHECK(mended.left.empty());
 }
 

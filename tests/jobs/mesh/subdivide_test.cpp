@@ -56,11 +56,11 @@ TEST_CASE("subdivide: a mesh and strokes in memory come to the bits of their fil
 TEST_CASE("subdivide: each refinement makes the faces that it says") {
   tests::Recorder recorder;
   jobs::SubdivideJob job = lined_sheet();
-  const std::size_t faces = std::get<io::MeshFile>(job.mesh).mesh.number_of_faces();
+  const std::size_t faces = std::get<io::MeshFile>(job.mesh).mesh->number_of_faces();
   const auto times = [&](jobs::Refinement refinement, int steps) {
     job.refinement = refinement;
     job.steps = steps;
-    return double(jobs::subdivide(job, recorder).mesh.mesh.number_of_faces()) / double(faces);
+    return double(jobs::subdivide(job, recorder).mesh.mesh->number_of_faces()) / double(faces);
   };
   CHECK(times(jobs::Refinement::everywhere, 0) == 3);
   CHECK(times(jobs::Refinement::loop, 2) == 16);
@@ -103,9 +103,9 @@ TEST_CASE("subdivide: a rigged GLB comes out as a GLB with its rig, and what it 
   tests::check_glb(fine);
   CHECK(fine.scene["nodes"] == rigged.scene["nodes"]);
   const io::MeshFile back = io::read_mesh(job.output);
-  CHECK(back.mesh.number_of_faces() == 32);
+  CHECK(back.mesh->number_of_faces() == 32);
   for (const geometry::VertexAttribute& joint : geometry::vertex_attributes(back.mesh))
-    for (const geometry::Vertex v : back.mesh.vertices()) CHECK(joint.values[v] <= 1);
+    for (const geometry::Vertex v : back.mesh->vertices()) CHECK(joint.values[v] <= 1);
 
   io::MeshFile masked = back;
   geometry::ensure_vertex_attribute(masked.mesh, "mask");

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "geometry/mesh/errors.h"
@@ -41,7 +42,7 @@ jobs::TransferJob transfer_of_ridge(double height = 0.02) {
 
 double highest(const io::MeshFile& file) {
   double z = 0;
-  for (const geometry::Point& p : file.mesh.points()) z = std::max(z, p.z());
+  for (const geometry::Point& p : file.mesh->points()) z = std::max(z, p.z());
   return z;
 }
 
@@ -58,7 +59,7 @@ TEST_CASE("transfer: meshes in memory come to the bits of their files") {
   of_files.wrinkled = folder / "ridged.ply";
   of_files.output = folder / "moved.ply";
   const jobs::TransferReport a = jobs::transfer(in_memory, recorder), b = jobs::transfer(of_files, recorder);
-  CHECK(a.moved.copied == tests::mesh_of(in_memory.original).mesh.number_of_vertices());
+  CHECK(a.moved.copied == tests::mesh_of(in_memory.original).mesh->number_of_vertices());
   CHECK(a.moved.unchanged < a.moved.copied);
   CHECK(highest(a.result) > 0.003);
   CHECK(tests::positions(a.result) == tests::positions(b.result));
@@ -153,7 +154,7 @@ TEST_CASE("transfer: two jobs at once in one process give the bits of single run
 TEST_CASE("transfer: the report names the corners of the faces that cross, and none where nothing does") {
   io::MeshFile file;
   const auto triangle = [&](geometry::Point a, geometry::Point b, geometry::Point c) {
-    file.mesh.add_face(file.mesh.add_vertex(a), file.mesh.add_vertex(b), file.mesh.add_vertex(c));
+    file.mesh->add_face(file.mesh->add_vertex(a), file.mesh->add_vertex(b), file.mesh->add_vertex(c));
   };
   triangle({5, 0, 0}, {6, 0, 0}, {5, 1, 0});  // far from the others
   triangle({-1, -1, 0}, {1, -1, 0}, {0, 1, 0});
@@ -165,7 +166,7 @@ TEST_CASE("transfer: the report names the corners of the faces that cross, and n
   const jobs::Json crossed = to_json(jobs::transfer(job, recorder)).at("crossings");
   CHECK(crossed.at("pairs") == 1);
   CHECK(crossed.at("corners") == jobs::Json({3, 4, 5, 6, 7, 8}));
-  for (int v = 6; v < 9; ++v) file.mesh.point(geometry::Vertex(v)) += geometry::Vector(0, 0, 3);
+  for (int v = 6; v < 9; ++v) file.mesh->point(geometry::Vertex(v)) += geometry::Vector(0, 0, 3);
   job.original = job.wrinkled = file;
   job.rest = file;
   CHECK_FALSE(to_json(jobs::transfer(job, recorder)).at("crossings").contains("corners"));
@@ -176,16 +177,16 @@ TEST_CASE("transfer: where the body comes through the mesh is reported with its 
   const auto on_ball = [](double edge) {  // 3 mm off a ball of 10 cm, by vertices
     io::MeshFile file;
     file.mesh = geometry::equilateral_sheet(0.16, 0.16, edge);
-    for (geometry::Point& p : file.mesh.points()) p = {p.x(), p.y() - 0.08, 0};
+    for (geometry::Point& p : file.mesh->points()) p = {p.x(), p.y() - 0.08, 0};
     return file;
   };
   const auto bent = [](io::MeshFile file) {
     auto rest = geometry::ensure_map(file.mesh, geometry::attribute::rest_position);
-    for (const geometry::Vertex v : file.mesh.vertices()) {
-      const geometry::Point p = file.mesh.point(v);
+    for (const geometry::Vertex v : file.mesh->vertices()) {
+      const geometry::Point p = file.mesh->point(v);
       rest[v] = {p.x(), p.y(), p.z()};
       const double length = std::sqrt(p.x() * p.x() + p.y() * p.y() + 0.01);
-      file.mesh.point(v) = {0.103 * p.x() / length, 0.103 * p.y() / length, 0.103 * 0.1 / length};
+      file.mesh->point(v) = {0.103 * p.x() / length, 0.103 * p.y() / length, 0.103 * 0.1 / length};
     }
     return file;
   };

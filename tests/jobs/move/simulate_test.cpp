@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "geometry/mesh/sheet.h"
@@ -411,7 +412,7 @@ TEST_CASE("simulate: cloth that ends inside the body is no success, and where it
 TEST_CASE("simulate: cloth strained beyond twice its length is torn") {
   tests::Recorder recorder;
   jobs::SimulateJob job = hung_sheet(0.4);
-  job.scene.settings.root.erase("lines");
+  job.scene.settings.root->erase("lines");
   io::set_value(job.scene.settings, "material.stiffness", 0.05, "test");
   io::set_value(job.scene.settings, "material.bending", 0, "test");
   const jobs::SimulateReport report = jobs::simulate(job, recorder);
@@ -425,7 +426,7 @@ TEST_CASE("simulate: cloth strained beyond twice its length is torn") {
 TEST_CASE("simulate: cloth that falls through other cloth is counted, new or from the start") {
   tests::Recorder recorder;
   jobs::SimulateJob job = hung_sheet(0.1);
-  job.scene.settings.root.erase("lines");
+  job.scene.settings.root->erase("lines");
   job.scene.settings.root["simulation"].erase("dt");
   geometry::Mesh& sheet = job.scene.memory.meshes["sheet"].mesh;
   sheet.add_face(sheet.add_vertex({0.1, 0.3, -0.05}), sheet.add_vertex({0.1, 0.3, 0.05}),
@@ -467,7 +468,7 @@ TEST_CASE("simulate: with contact of cloth with itself --cloth-friction holds a 
     io::set_value(job.scene.settings, "material.drag", 0, "test");
     tests::Recorder recorder;
     const jobs::SimulateReport report = jobs::simulate(job, recorder);
-    return (centre_of(report.garment.mesh).x() - start) * double(report.garment.mesh.number_of_vertices());
+    return (centre_of(report.garment.mesh).x() - start) * double(report.garment.mesh->number_of_vertices());
   };
   const double smooth = slid_by(0), rough = slid_by(0.5);
   CHECK(smooth > 10 * std::abs(rough));
@@ -478,7 +479,7 @@ TEST_CASE("simulate: what is led out of the gap goes on after a stop with the bi
   jobs::SimulateJob job = sheet_on_ball(0.1);
   job.scene.memory.meshes["ball"].mesh =
       tests::icosphere(2, 0.1, {0, 0.15, -0.1005});  // half a millimetre away
-  job.scene.settings.root.erase("lines");
+  job.scene.settings.root->erase("lines");
   io::set_value(job.scene.settings, "simulation.integrator", "implicit", "test");
   io::set_value(job.scene.settings, "simulation.dt", 0.002, "test");
   tests::Recorder recorder;
@@ -545,7 +546,7 @@ TEST_CASE("simulate: steps that were not solved are told, and more than a tenth 
 TEST_CASE("simulate: a gap that edges raise is told, and the advice lowers it", "[release]") {
   tests::Recorder recorder;
   jobs::SimulateJob job = sheet_on_ball(0.005);
-  job.scene.settings.root.erase("lines");
+  job.scene.settings.root->erase("lines");
   io::set_value(job.scene.settings, "body.tolerance", 0.0002, "test");
   io::set_value(job.scene.settings, "material.gap", 0.0008, "test");
   const auto told = [](const jobs::SimulateReport& report) {
@@ -573,10 +574,10 @@ jobs::SimulateJob settled_sheet(double seconds, double time = 0) {
 }
 
 double farthest_apart(const io::MeshFile& a, const io::MeshFile& b) {
-  REQUIRE(a.mesh.number_of_vertices() == b.mesh.number_of_vertices());
+  REQUIRE(a.mesh->number_of_vertices() == b.mesh->number_of_vertices());
   double most = 0;
-  for (const geometry::Vertex v : a.mesh.vertices())
-    most = std::max(most, CGAL::squared_distance(a.mesh.point(v), b.mesh.point(v)));
+  for (const geometry::Vertex v : a.mesh->vertices())
+    most = std::max(most, CGAL::squared_distance(a.mesh->point(v), b.mesh->point(v)));
   return std::sqrt(most);
 }
 
@@ -633,7 +634,7 @@ TEST_CASE(
     "[long]") {
   tests::Recorder recorder;
   jobs::SimulateJob job = settled_sheet(0);
-  job.scene.settings.root.erase("pins");
+  job.scene.settings.root->erase("pins");
   CHECK_THROWS_WITH(jobs::simulate(job, recorder), Catch::Contains("--pin-loop"));
   job.scene.memory.meshes["ball"].mesh = tests::icosphere(2, 0.1, {0, -6, 0});
   io::set_value(job.scene.settings, "body.mesh", "ball", "test");

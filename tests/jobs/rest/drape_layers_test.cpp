@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "geometry/mesh/sheet.h"
 #include "io/scene/scene.h"
@@ -19,9 +20,9 @@ namespace {
 io::MeshFile sheet_at(double height, double edge, double tilt) {
   io::MeshFile file;
   file.mesh = geometry::equilateral_sheet(0.3, 0.3, edge);
-  for (const geometry::Vertex v : file.mesh.vertices()) {
-    const geometry::Point p = file.mesh.point(v);
-    file.mesh.point(v) = {p.x(), height + tilt * p.x(), 0.15 - p.y()};
+  for (const geometry::Vertex v : file.mesh->vertices()) {
+    const geometry::Point p = file.mesh->point(v);
+    file.mesh->point(v) = {p.x(), height + tilt * p.x(), 0.15 - p.y()};
   }
   return file;
 }
@@ -96,7 +97,7 @@ TEST_CASE("drape: coincident layers and a garment turned inside out are solved, 
   jobs::DrapeJob job = two_across_ball();
   job.scene.memory.meshes["over"] = job.scene.memory.meshes["under"];
   CHECK(jobs::drape(job, recorder).layers->pairs[0].crossings == 0);
-  for (geometry::Point& p : job.scene.memory.meshes["under"].mesh.points()) p = {-p.x(), p.y(), p.z()};
+  for (geometry::Point& p : job.scene.memory.meshes["under"].mesh->points()) p = {-p.x(), p.y(), p.z()};
   const jobs::DrapeJobReport turned = jobs::drape(job, recorder);
   CHECK(tells(turned, "turned"));
   CHECK(turned.layers->turned == std::vector<std::string>{"under"});
@@ -183,7 +184,7 @@ TEST_CASE("drape: what several garments are not draped with is refused") {
   job.output = "-";
   check_refused(job, "several files");
   job = two_across_ball();
-  job.scene.settings.root.erase("body");
+  job.scene.settings.root->erase("body");
   io::set_value(job.scene.settings, "pins.0", io::Json{{"vertices", {0}}}, "the test");
   check_refused(job, "pins");
 }

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <thread>
 
 #include "geometry/fold/wrinkle.h"
 #include "geometry/mesh/errors.h"
+#include "geometry/mesh/property_names.h"
 #include "geometry/mesh/sheet.h"
 #include "geometry/refine/subdivide.h"
 #include "io/scene/scene.h"
@@ -100,7 +102,7 @@ TEST_CASE("drape: a garment and a body in memory come to the bits of their files
 TEST_CASE("drape: fabrics are draped one after the other, each to the bits of its own job", "[release]") {
   tests::Recorder recorder;
   jobs::DrapeJob job = across_ball();
-  job.scene.settings.root.at("material").erase("preset");
+  job.scene.settings.root->at("material").erase("preset");
   job.fabrics = {"silk", "denim"};
   const jobs::DrapeJobReport report = jobs::drape(job, recorder);
   REQUIRE(report.garments.size() == 2);
@@ -116,7 +118,7 @@ TEST_CASE("drape: warnings and remarks have their codes", "[long]") {
   set(job, "material.gap", 0.0005);
   set(job, "simulation.seconds", 3);
   set(job, "pins.0", io::Json{{"box", {-1, -1, -1, 1, 1, 1}}});
-  for (geometry::Point& p : job.scene.memory.meshes["sheet"].mesh.points()) p = {p.x(), 0.05, p.z()};
+  for (geometry::Point& p : job.scene.memory.meshes["sheet"].mesh->points()) p = {p.x(), 0.05, p.z()};
   jobs::drape(job, recorder);
   CHECK(recorder.warned_of("gap_raised"));
   CHECK(recorder.warned_of("pins_inside_body"));
@@ -126,7 +128,7 @@ TEST_CASE("drape: warnings and remarks have their codes", "[long]") {
   const jobs::DrapeJobReport hurried = jobs::drape(job, recorder);
   CHECK(remarks_on(hurried, "not_at_rest"));
   CHECK(hurried.fails());
-  for (geometry::Point& p : job.scene.memory.meshes["sheet"].mesh.points()) p = {p.x() + 2, p.y(), p.z()};
+  for (geometry::Point& p : job.scene.memory.meshes["sheet"].mesh->points()) p = {p.x() + 2, p.y(), p.z()};
   const jobs::DrapeJobReport beside = jobs::drape(job, recorder);
   CHECK(remarks_on(beside, "touches_nothing"));
   CHECK(remarks_on(beside, "falls"));
@@ -272,7 +274,7 @@ TEST_CASE("drape: a job that cannot be is refused before anything is written", "
     spoil(job);
     CHECK_THROWS_AS(jobs::drape(job, recorder), std::invalid_argument);
   };
-  refused([](auto& job) { job.scene.settings.root.erase("body"); });
+  refused([](auto& job) { job.scene.settings.root->erase("body"); });
   refused([](auto& job) { job.settings.residual = 0; });
   refused([](auto& job) { job.settings.penetration = -1; });
   refused([](auto& job) { job.settings.bending_friction = -1; });
@@ -362,7 +364,7 @@ TEST_CASE("drape: cloth that comes to cross other cloth is counted, placed and n
   CHECK(to_json(report).at("crossings").at("corners") == c.corners);
   for (const geometry::Face f : c.faces)
     for (const geometry::Vertex v :
-         only(report).file.mesh.vertices_around_face(only(report).file.mesh.halfedge(f)))
+         only(report).file.mesh->vertices_around_face(only(report).file.mesh->halfedge(f)))
       CHECK(std::binary_search(c.corners.begin(), c.corners.end(), std::size_t(v)));
   set(job, "garment.allow_crossings", c.pairs);
   CHECK_FALSE(only(jobs::drape(job, recorder)).crosses_itself());
@@ -481,7 +483,8 @@ TEST_CASE("drape: numbers beyond any cloth's are a numerical failure, and do not
   for (const auto& [path, value] :
        {std::pair<const char*, io::Json>{"forces.gravity", 1e300}, {"material.stretch", 1e30}}) {
     jobs::DrapeJob job = across_ball();
-    for (geometry::Point& p : job.scene.memory.meshes["sheet"].mesh.points()) p = {p.x(), p.y() + 0.1, p.z()};
+    for (geometry::Point& p : job.scene.memory.meshes["sheet"].mesh->points())
+      p = {p.x(), p.y() + 0.1, p.z()};
     job.subdivide = 0;
     set(job, path, value);
     const jobs::DrapeJobReport report = jobs::drape(job, recorder);
@@ -520,8 +523,8 @@ TEST_CASE("drape: a part that nothing holds is named and goes with the cloth, an
   CHECK_FALSE(report.fails());  // it is small
   CHECK(to_json(report).at("loose").at("done") == "held");
   const geometry::Vertex first{geometry::Vertex::size_type(count)};
-  CHECK(CGAL::squared_distance(d.file.mesh.point(first), lay) > 1e-4);  // the sheet's corner hangs down
-  set(job, "pins.0", io::Json{{"box", {0.9, -1, -1, 2, 1, 1}}});        // the advice
+  CHECK(CGAL::squared_distance(d.file.mesh->point(first), lay) > 1e-4);  // the sheet's corner hangs down
+  set(job, "pins.0", io::Json{{"box", {0.9, -1, -1, 2, 1, 1}}});         // the advice
   CHECK_FALSE(jobs::drape(job, recorder).fails());
 }
 
@@ -543,7 +546,7 @@ TEST_CASE("drape: parts that fall one after the other are not refined, however c
   CHECK(only(report).end.falls());
   CHECK(remarks_on(report, "falls"));
   CHECK(only(report).report.levels.size() == 1);
-  CHECK(only(report).file.mesh.number_of_vertices() == count);
+  CHECK(only(report).file.mesh->number_of_vertices() == count);
 }
 
 TEST_CASE("drape: a gap that edges raise is refined away, and said where it is not", "[release]") {
@@ -623,7 +626,7 @@ TEST_CASE("drape: without a body a sheet hangs from its edge and stretches by it
   CHECK(d.refinements == 0);
   CHECK_FALSE(d.fit.on_body);
   double low = 1, low_before = 1, high = -1;
-  for (const geometry::Point& p : d.file.mesh.points()) low = std::min(low, p.y());
+  for (const geometry::Point& p : d.file.mesh->points()) low = std::min(low, p.y());
   for (const geometry::Point& p : before.points())
     low_before = std::min(low_before, p.y()), high = std::max(high, p.y());
   const double height = high - low_before;
@@ -640,7 +643,7 @@ TEST_CASE("drape: without a body a sheet hangs from its edge and stretches by it
 TEST_CASE("drape: what holds a garment carries its weight: a pin, a body, or both, and a band pulls",
           "[long]") {
   jobs::DrapeJob hung = across_ball();
-  hung.scene.settings.root.erase("body");
+  hung.scene.settings.root->erase("body");
   set(hung, "pins.0.vertices", io::Json::array({0, 1, 2, 3, 4, 5, 6}));
   set(hung, "garment.subdivide", 0);
   tests::Recorder recorder;
@@ -654,7 +657,7 @@ TEST_CASE("drape: what holds a garment carries its weight: a pin, a body, or bot
   const jobs::Draped& d = report.garments.at(0);
   double mass = 0;
   const auto map = *geometry::find_map(d.file.mesh, geometry::attribute::mass);
-  for (const geometry::Vertex v : d.file.mesh.vertices()) mass += map[v];
+  for (const geometry::Vertex v : d.file.mesh->vertices()) mass += map[v];
   CHECK(d.forces.weight.y() == Approx(-9.81 * mass));
   CHECK((d.forces.weight + d.forces.contact).norm() < 1e-9 * mass);
   REQUIRE(d.forces.bands.size() == 1);
@@ -671,7 +674,7 @@ TEST_CASE("drape: without a body a part that no pin holds is named, and nothing 
   const jobs::DrapeJobReport report = jobs::drape(job, recorder);
   CHECK(only(report).outcome() == "at rest, 1 of 2 parts loose");
   CHECK(remarks_on(report, "loose_parts"));
-  job.scene.settings.root.erase("pins");
+  job.scene.settings.root->erase("pins");
   CHECK_THROWS_WITH(jobs::drape(job, recorder), Catch::Contains("--pin-loop") && Catch::Contains("--body"));
 }
 
@@ -686,8 +689,8 @@ TEST_CASE("drape: a plate comes to rest on a ball, near to where hinges do, and 
   const jobs::Draped a = only(hinges), b = only(plate);
   CHECK(b.outcome().rfind("at rest", 0) == 0);  // as far off the coarse ball as hinges are
   double apart = 0;
-  for (const geometry::Vertex v : a.file.mesh.vertices())
-    apart = std::max(apart, std::sqrt(CGAL::squared_distance(a.file.mesh.point(v), b.file.mesh.point(v))));
+  for (const geometry::Vertex v : a.file.mesh->vertices())
+    apart = std::max(apart, std::sqrt(CGAL::squared_distance(a.file.mesh->point(v), b.file.mesh->point(v))));
   CAPTURE(apart);
   CHECK(apart > 1e-6);  // another law
   CHECK(apart < 0.05);

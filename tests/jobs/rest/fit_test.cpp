@@ -25,7 +25,7 @@ jobs::FitJob worn_sleeve(double radius = 0.12) {
   sleeve.mesh = tests::cylinder(radius, 0.12, 16, 4);
   geometry::ensure_rest_lengths(sleeve.mesh);
   auto rest = *geometry::find_map(sleeve.mesh, geometry::attribute::rest_length);
-  for (geometry::Edge e : sleeve.mesh.edges()) rest[e] /= 1.1;
+  for (geometry::Edge e : sleeve.mesh->edges()) rest[e] /= 1.1;
   ball.mesh = tests::icosphere(2, 0.1, {0, 0.06, 0});
   jobs::FitJob job;
   job.worn = {sleeve};
@@ -37,7 +37,7 @@ jobs::FitJob worn_sleeve(double radius = 0.12) {
 void forget_rest(jobs::MeshInput& input) {
   io::MeshFile& file = std::get<io::MeshFile>(input);
   auto rest = geometry::find_map(file.mesh, geometry::attribute::rest_length);
-  file.mesh.remove_property_map(rest.value());
+  file.mesh->remove_property_map(rest.value());
 }
 
 }  // namespace
@@ -140,7 +140,7 @@ TEST_CASE("fit: is cancelled within its measuring, too, and writes nothing then"
   job.output = folder / "fitted.ply";
   tests::Recorder patient;
   jobs::fit(job, patient);
-  REQUIRE(patient.asked > int(tests::mesh_of(job.worn[0]).mesh.number_of_vertices()));
+  REQUIRE(patient.asked > int(tests::mesh_of(job.worn[0]).mesh->number_of_vertices()));
   fs::remove(job.output);
   for (int at = 1; at <= patient.asked; at += std::max(1, patient.asked / 20)) {
     INFO("cancelled at question " << at << " of " << patient.asked);

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "geometry/mesh/parts.h"
 #include "geometry/mesh/sheet.h"
@@ -82,30 +83,30 @@ TEST_CASE(
   file.polylines = {{{}, {0, 7}, false}, {{}, {4, 5}, false}};
   const std::vector<int> seeds{4};
   jobs::drop_parts(file, seeds);
-  CHECK(file.mesh.number_of_vertices() == 6);
-  CHECK(file.mesh.number_of_faces() == 2);
-  CHECK_FALSE(file.mesh.has_garbage());
+  CHECK(file.mesh->number_of_vertices() == 6);
+  CHECK(file.mesh->number_of_faces() == 2);
+  CHECK_FALSE(file.mesh->has_garbage());
   const std::vector<geometry::Strut> struts = geometry::struts(file.mesh);
   REQUIRE(struts.size() == 2);
   for (const geometry::Strut& s : struts)
-    CHECK(std::abs(file.mesh.point(s.a).x() - file.mesh.point(s.b).x()) ==
+    CHECK(std::abs(file.mesh->point(s.a).x() - file.mesh->point(s.b).x()) ==
           Approx(s.rest_length == 2 ? 2 : 0).margin(0.03));
   REQUIRE(file.polylines.size() == 1);
-  CHECK(file.mesh.point(vertex(file.polylines[0].vertices[1])).x() >= 2);
+  CHECK(file.mesh->point(vertex(file.polylines[0].vertices[1])).x() >= 2);
 }
 
 TEST_CASE("drape: loose parts are held, dropped or let fall, and the report says so", "[long]") {
   tests::Recorder recorder;
   jobs::DrapeJob job = with_scraps();
-  const std::size_t count = job.scene.memory.meshes["sheet"].mesh.number_of_vertices();
+  const std::size_t count = job.scene.memory.meshes["sheet"].mesh->number_of_vertices();
   const jobs::DrapeJobReport held = jobs::drape(job, recorder);
   INFO(to_json(held).dump(1));
   const jobs::Draped& d = held.garments[0];
   CHECK_FALSE(held.fails());
   CHECK(d.outcome().find("at rest, 2 of 3 parts loose") == 0);
-  CHECK(d.file.mesh.number_of_vertices() == count);
+  CHECK(d.file.mesh->number_of_vertices() == count);
   CHECK(apart(d.file.mesh, vertex(count - 1), vertex(count - 2)) == Approx(0.02 * std::sqrt(2)));
-  CHECK(d.file.mesh.point(vertex(count - 6)).y() < 0.12);  // with the border that hangs down
+  CHECK(d.file.mesh->point(vertex(count - 6)).y() < 0.12);  // with the border that hangs down
   const io::Json told = to_json(held).at("loose");
   CHECK(told.at("pieces") == 2);
   CHECK(told.at("vertices") == 6);
@@ -113,13 +114,13 @@ TEST_CASE("drape: loose parts are held, dropped or let fall, and the report says
   job.settings.loose = jobs::LooseUse::drop;
   const jobs::DrapeJobReport dropped = jobs::drape(job, recorder);
   CHECK_FALSE(dropped.fails());
-  CHECK(dropped.garments[0].file.mesh.number_of_vertices() == count - 6);
+  CHECK(dropped.garments[0].file.mesh->number_of_vertices() == count - 6);
   CHECK(to_json(dropped).at("loose").at("done") == "dropped");
   job.settings.loose = jobs::LooseUse::fall;
   const jobs::DrapeJobReport fallen = jobs::drape(job, recorder);
   CHECK(fallen.fails());
   CHECK_FALSE(to_json(fallen).contains("loose"));
-  CHECK(fallen.garments[0].file.mesh.point(vertex(count - 1)).y() < -0.2);
+  CHECK(fallen.garments[0].file.mesh->point(vertex(count - 1)).y() < -0.2);
 }
 
 TEST_CASE("drape: a large part that nothing holds is a failure, unless it is dropped", "[long]") {

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
+#include <nlohmann/json.hpp>
 
 #include "geometry/figure/shape_body.h"
 #include "geometry/mesh/errors.h"
@@ -104,7 +105,7 @@ TEST_CASE("placing: lines are drawn where the garment lies, and brought with it 
   io::DrawnStroke ridge;
   ridge.stroke.name = "front";
   ridge.stroke.height = 0.015;
-  for (const geometry::Point& p : std::get<io::MeshFile>(job.garment).mesh.points())
+  for (const geometry::Point& p : std::get<io::MeshFile>(job.garment).mesh->points())
     if (std::abs(p.x()) < 0.012 && p.z() > 0 && p.y() < 0.8) ridge.stroke.points.push_back(p);
   std::ranges::sort(ridge.stroke.points, std::greater<>(), [](const auto& p) { return p.y(); });
   job.strokes = std::vector{ridge};
@@ -121,10 +122,10 @@ TEST_CASE("placing: lines are drawn where the garment lies, and brought with it 
   CHECK(report.rest->placed->height_scale == Approx(1.86 / 1.70).epsilon(0.01));
   CHECK(report.drawn.round.report.lines.size() == 1);
   double x = 0;
-  for (const geometry::Point& p : report.garment.mesh.points()) x += p.x();
-  CHECK(x / double(report.garment.mesh.number_of_vertices()) == Approx(0.7).margin(0.02));
+  for (const geometry::Point& p : report.garment.mesh->points()) x += p.x();
+  CHECK(x / double(report.garment.mesh->number_of_vertices()) == Approx(0.7).margin(0.02));
   CHECK(to_json(report)["at_rest"].contains("placed"));
-  job.settle->settings.root.erase("body");
+  job.settle->settings.root->erase("body");
   io::set_value(job.settle->settings, "pins.0.loop", "top", "the test");
   CHECK_THROWS_WITH(jobs::wrinkle(job, recorder), Catch::Contains("name the other one with --body"));
 }
@@ -137,7 +138,7 @@ TEST_CASE("placing: what cannot be brought is refused, and what lies in the body
   CHECK_THROWS_WITH(jobs::drape(job, recorder), Catch::StartsWith("ball.obj: the body has no"));
   CHECK_THROWS_WITH(jobs::drape(job, recorder), Catch::Contains("--made-for"));
   job = on_another("skirt.obj");
-  job.scene.settings.root.erase("body");
+  job.scene.settings.root->erase("body");
   io::set_value(job.scene.settings, "pins.0.loop", "top", "the test");
   CHECK_THROWS_AS(jobs::drape(job, recorder), std::invalid_argument);
 }
