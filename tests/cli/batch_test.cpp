@@ -98,7 +98,7 @@ TEST_CASE(
   CHECK(page.find("class=failed") != std::string::npos);
 }
 
-TEST_CASE("batch: a verdict that is no success is finished, counted, and no success of the batch") {
+TEST_CASE("batch: a verdict that is no success is finished, counted, and no success of the batch", "[long]") {
   const ScratchDirectory folder;
   write_text(folder / "falls.obj", square);
   const std::string plan = folder / "plan.toml";
@@ -114,7 +114,7 @@ TEST_CASE("batch: a verdict that is no success is finished, counted, and no succ
   CHECK(run_furrow("batch list " + plan).out.empty());
 }
 
-TEST_CASE("batch: cases share what is made of their body, and come to the same without") {
+TEST_CASE("batch: cases share what is made of their body, and come to the same without", "[long]") {
   const ScratchDirectory folder;
   write_text(folder / "cloth.obj", "v 0 0.4 0\nv 0.1 0.4 0\nv 0.1 0.4 0.1\nv 0 0.4 0.1\nf 1 3 2\nf 1 4 3\n");
   write_text(folder / "box.obj",
@@ -159,7 +159,7 @@ TEST_CASE("batch: a changed garment is another case, and the old one's result st
   CHECK(after[2] == before[2]);
 }
 
-TEST_CASE("batch: Slurm's tasks run their chunks, and only what failed is submitted again") {
+TEST_CASE("batch: Slurm's tasks run their chunks, and only what failed is submitted again", "[long]") {
   const Batch batch;
   const Run made = batch.furrow("slurm " + batch.plan + " --chunk 4 --json");
   REQUIRE(made.exit_code == 0);

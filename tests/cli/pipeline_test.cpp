@@ -207,7 +207,8 @@ TEST_CASE("pipeline: the same stroke twice gives the height of the second, and t
   REQUIRE(run.exit_code == 0);
 }
 
-TEST_CASE("pipeline: a wrinkled mesh that is refined again still has its springs and gets its masses") {
+TEST_CASE("pipeline: a wrinkled mesh that is refined again still has its springs and gets its masses",
+          "[long]") {
   Sheet sheet;
   sheet.wrinkle();
   write_text(sheet.strokes, R"({"strokes":[{"points":[[0.3,0,-0.15],[0.7,0,-0.15]]}]})");

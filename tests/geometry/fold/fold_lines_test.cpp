@@ -456,7 +456,7 @@ TEST_CASE(
   CHECK(mesh.number_of_vertices() == 121);
 }
 
-TEST_CASE("fold_lines: a scribble comes to its end after work that is bounded") {
+TEST_CASE("fold_lines: a scribble comes to its end after work that is bounded", "[long]") {
   const auto questions = [](int points) {
     Mesh mesh = grid(10, 10, 1, 1);
     Stroke zigzag = line({}, 0.01, 0.4);

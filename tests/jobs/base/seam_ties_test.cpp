@@ -74,7 +74,8 @@ TEST_CASE("seam_ties: what reading doubled is tied, on every level of refinement
   CHECK(jobs::doubled_vertices(io::MeshFile{}).empty());
 }
 
-TEST_CASE("seam_ties: a sheet that is held by its flap hangs on it, and is one piece when it is read again") {
+TEST_CASE("seam_ties: a sheet that is held by its flap hangs on it, and is one piece when it is read again",
+          "[long]") {
   const fs::path folder = tests::empty_folder("seam_ties_hung");
   write_flapped_sheet(folder / "flap.obj");
   for (const int levels : {0, 1}) {

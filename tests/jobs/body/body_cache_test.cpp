@@ -74,7 +74,7 @@ TEST_CASE("body_cache: a body is the same, and what is told of it, whether it wa
   CHECK(texts_of(without) == texts_of(with));
 }
 
-TEST_CASE("body_cache: another unit, another tolerance and another content are other files") {
+TEST_CASE("body_cache: another unit, another tolerance and another content are other files", "[long]") {
   Ball ball("body_cache_keys");
   jobs::Listener nobody;
   const double usual = ball.load(nobody).field.report().tolerance;
@@ -92,7 +92,7 @@ TEST_CASE("body_cache: another unit, another tolerance and another content are o
   CHECK(ball.load(nobody).triangles.triangles.size() == other.mesh->number_of_faces());
 }
 
-TEST_CASE("body_cache: a damaged file is told of, and made again") {
+TEST_CASE("body_cache: a damaged file is told of, and made again", "[long]") {
   Ball ball("body_cache_broken");
   jobs::Listener nobody;
   const jobs::BodyCollider whole = ball.load(nobody);

@@ -137,7 +137,7 @@ TEST_CASE("wrinkle: what a wrinkled file was made of draws the same lines again"
   CHECK_THROWS_AS(jobs::recorded_drawing(folder / "sheet.obj", {{}, recorder}), std::invalid_argument);
 }
 
-TEST_CASE("wrinkle: a cancelled job leaves nothing") {
+TEST_CASE("wrinkle: a cancelled job leaves nothing", "[long]") {
   const fs::path folder = tests::empty_folder("wrinkle_cancelled");
   jobs::WrinkleJob job = ridged_sheet();
   job.output = folder / "ridged.ply";

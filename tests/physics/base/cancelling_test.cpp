@@ -79,7 +79,7 @@ void check_asks(const std::string& what, int least, const std::function<void()>&
 
 }  // namespace
 
-TEST_CASE("cancelling: what is asked of a body is broken off within its preparation") {
+TEST_CASE("cancelling: what is asked of a body is broken off within its preparation", "[long]") {
   const TriangleMesh body = sphere(40, 0.3);
   check_asks(
       "ExactDistance", 10, [&] { ExactDistance exact(body); }, true);

@@ -66,7 +66,7 @@ TEST_CASE("energy_balance: backward Euler takes from an oscillator what its theo
   CHECK(e.given() == 0);
 }
 
-TEST_CASE("energy_balance: what cloth has gained is what was given less what was lost") {
+TEST_CASE("energy_balance: what cloth has gained is what was given less what was lost", "[long]") {
   const Integrator integrator = GENERATE(Integrator::implicit, Integrator::tr_bdf2);
   const Sphere ball(Vec3::Zero(), 0.2);
   Cloth cloth = sheet(12, 12, 0.05, 0.2, 3, 200, 0.5);

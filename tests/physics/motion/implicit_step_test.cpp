@@ -205,7 +205,7 @@ TEST_CASE("implicit_step: what the body pushes from two sides is given room, and
   for (const Vec3& x : cloth.particles.x) CHECK(cleft.at(x).value > 0.2 * rest_gap);
 }
 
-TEST_CASE("implicit_step: cloth that the air presses to a rough body is solved in few iterations") {
+TEST_CASE("implicit_step: cloth that the air presses to a rough body is solved in few iterations", "[long]") {
   const Sphere ball(Vec3::Zero(), 0.2);
   World world;
   world.collider = &ball;

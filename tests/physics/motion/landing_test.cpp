@@ -43,7 +43,7 @@ TEST_CASE("landing: a sheet that lands as it slides stops after v^2 / (2 mu g)")
         Approx(speed * speed / (2 * landing_friction * cases::gravity)).epsilon(0.01));
 }
 
-TEST_CASE("landing: what starts in the gap is lifted out of it without speed") {
+TEST_CASE("landing: what starts in the gap is lifted out of it without speed", "[long]") {
   const double above = GENERATE(-2e-3, -1e-3, -1e-4), dt = GENERATE(1.0 / 60, 1.0 / 240, 1e-3, 1e-4);
   const Integrator integrator = GENERATE(Integrator::implicit, Integrator::tr_bdf2);
   SimulateOptions options = landing(integrator);
