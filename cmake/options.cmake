@@ -10,7 +10,7 @@ target_compile_options(furrow_options INTERFACE -ffp-contract=off)
 target_compile_options(furrow_options INTERFACE
   $<BUILD_INTERFACE:-fno-math-errno -Wall -Wextra -Wshadow -Wnon-virtual-dtor>
   # United sources shadow what their neighbours in the room call so, and are included.
-  $<BUILD_INTERFACE:$<$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>:-Wno-shadow$<SEMICOLON>-Wno-subobject-linkage>>)
+  $<BUILD_INTERFACE:$<$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>:-Wno-shadow$<$<CXX_COMPILER_ID:GNU>:$<SEMICOLON>-Wno-subobject-linkage>>>)
 if(FURROW_WERROR)
   target_compile_options(furrow_options INTERFACE $<BUILD_INTERFACE:-Werror>)
 endif()

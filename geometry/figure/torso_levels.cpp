@@ -74,7 +74,7 @@ std::vector<TorsoLevel> torso_levels(std::span<const Point> points, Triangles tr
   const double tall = high - low;
   if (!(tall >= least && tall <= largest_value)) return {};
   std::vector<TorsoLevel> levels;
-  const auto follow = [&](int thousandths) {
+  const auto follow = [&, low = low](int thousandths) {
     const auto next = level_at(points, triangles, low + thousandths / 1000.0 * tall,
                                levels.empty() ? nullptr : &levels.back());
     if (next) levels.push_back(*next);

@@ -243,7 +243,7 @@ class GltfMeshWriter {
     for (const Face f : faces)
       for (const Halfedge h : mesh_.halfedges_around_face(mesh_.halfedge(f))) corners.push_back(corner_of(h));
     std::ranges::sort(corners);
-    corners.erase(std::ranges::unique(corners).begin(), corners.end());
+    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
     const auto number_of = [&](Halfedge h) {
       return static_cast<std::uint32_t>(std::ranges::lower_bound(corners, corner_of(h)) - corners.begin());
     };

@@ -441,15 +441,16 @@ class PlyReader {
   /// An edge of the file stands for every edge of the mesh between copies of its two points.
   void fill_edges(SoupMesh& mesh) const {
     std::vector<std::pair<Edge, std::size_t>> matches;  // with the row of the file
+    const auto ends_of = [](const MeshEdge& m) { return std::pair(m.a, m.b); };
     const std::vector<MeshEdge> sorted = edges_.empty() ? std::vector<MeshEdge>{} : sorted_edges(mesh);
     for (std::size_t i = 0; i < edges_.size(); ++i) {
       const auto& [a, b] = edges_[i];
-      const auto same = std::ranges::equal_range(sorted, std::pair(a, b), {},
-                                                 [](const MeshEdge& m) { return std::pair(m.a, m.b); });
-      if (same.empty())
+      const auto first = std::ranges::lower_bound(sorted, std::pair(a, b), {}, ends_of);
+      const auto last = std::ranges::upper_bound(sorted, std::pair(a, b), {}, ends_of);
+      if (first == last)
         throw ContentError(name_ + ": edge " + std::to_string(i) + ": no face has an edge between vertices " +
                            std::to_string(a) + " and " + std::to_string(b) + "; remove it");
-      for (const MeshEdge& m : same) matches.emplace_back(m.edge, i);
+      for (auto m = first; m != last; ++m) matches.emplace_back(m->edge, i);
     }
     of_edges_.for_each([&](const auto& slot) {
       if (slot.columns.empty()) return;

@@ -9,7 +9,7 @@
 namespace furrow::io {
 namespace {
 
-using Stroke = std::vector<std::array<double, 2>>;
+using PenStroke = std::vector<std::array<double, 2>>;
 
 constexpr double capital = 12, space = 6, side_bearing = 3.4;
 constexpr double pen_radius = 0.75;
@@ -117,10 +117,10 @@ constexpr std::string_view box = "0E6E6Q0Q0E";
 static_assert(std::size(glyph_strokes) == '~' - '!' + 1);
 
 /// Corner cutting (Chaikin 1974), whose limit is the quadratic B-spline; ends stay, a loop stays closed.
-Stroke smoothed(Stroke points) {
+PenStroke smoothed(PenStroke points) {
   const bool closed = points.front() == points.back();
   for (int round = 0; round < 4; ++round) {
-    Stroke next;
+    PenStroke next;
     if (!closed) next.push_back(points.front());
     for (std::size_t i = 1; i < points.size(); ++i) {
       const auto &a = points[i - 1], &b = points[i];
@@ -172,7 +172,7 @@ Glyph glyph(char character) {
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find(' ', at), text.size());
     const bool curved = text[at] == '~';
-    Stroke points;
+    PenStroke points;
     for (std::size_t i = at + (curved ? 1 : 0); i + 1 < end; i += 2) {
       points.push_back({double(text[i] - '0'), double(text[i + 1] - 'E')});
       right = std::max(right, points.back()[0]);
@@ -200,7 +200,7 @@ void draw_text(Image& image, std::string_view text, double left, double baseline
   Coverage coverage{image.width, image.height, std::vector<float>(image.rgb.size() / 3)};
   for (char c : text) {
     const Glyph letter = glyph(c);
-    for (const Stroke& stroke : letter.strokes) {
+    for (const PenStroke& stroke : letter.strokes) {
       const auto place = [&](const std::array<double, 2>& p) {
         return std::array<double, 2>{left + scale * p[0], baseline - scale * p[1]};
       };

@@ -51,7 +51,7 @@ class Resolving {
   /// They may lie beside the garment, but mostly they are those of a picture of another size.
   static void warn_of_pixels_outside(const Stroke& stroke, const PictureStroke& drawn,
                                      std::vector<std::string>& warnings) {
-    const auto [width, height] = std::pair(drawn.picture.width, drawn.picture.height);
+    const auto width = drawn.picture.width, height = drawn.picture.height;
     const auto outside = [&](const auto& pixel) {
       return !(pixel[0] >= -0.5 && pixel[0] <= width - 0.5 && pixel[1] >= -0.5 && pixel[1] <= height - 0.5);
     };

@@ -105,7 +105,8 @@ void StepElements::blocks(const ElementCounts& counts, std::span<const Vec3> x, 
       if constexpr (std::same_as<Kind, MembraneTriangle>) {
         triangle_blocks(packed_, x_.data(), from, until, to);
       } else if constexpr (std::same_as<Kind, Hinge>) {
-        if (((law == HingeLaw::linear) && ...))
+        const bool linear = ((law == HingeLaw::linear) && ...);
+        if (linear)
           hinge_blocks(packed_, x_.data(), from, until, to);
         else
           plainly(from, until);

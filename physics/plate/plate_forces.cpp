@@ -20,8 +20,9 @@ void bend_hinges(const FourHinges* hinges, const Vec4* x, double* bend, Vec4* ti
   for (int i = 0; i < n; ++i) {
     FourBends b;
     bends_of(hinges[i].vertex, x, b);
+    const Lanes rest_angle = at(hinges[i].rest_angle);
     Lanes phi;
-    bend_of(b.angle, at(hinges[i].rest_angle), phi);
+    bend_of(b.angle, rest_angle, phi);
     *(UnalignedLanes*)(bend + 4 * i) = phi;
     for (int j = 0; j < 4; ++j) {
       *(Lanes*)(tips + 8 * i + 2 * j) = Lanes{b.tip_a.x[j], b.tip_a.y[j], b.tip_a.z[j], b.foot_a[j]};
