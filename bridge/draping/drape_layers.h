@@ -3,6 +3,7 @@
 #include <span>
 
 #include "bridge/draping/drape.h"
+#include "geometry/mesh/mesh.h"
 #include "physics/pairs/untangle_layers.h"
 
 namespace furrow::bridge {

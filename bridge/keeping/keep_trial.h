@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "bridge/keeping/keep.h"
+#include "geometry/mesh/mesh.h"
 
 namespace furrow::bridge {
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "geometry/mesh/mesh.h"
 #include "io/mesh/mesh_file.h"
 
 /// A file's unit and axes against ours (metres, y up).

@@ -5,6 +5,7 @@
 
 #include "bridge/arrays/gather.h"
 #include "bridge/draping/drape.h"
+#include "geometry/mesh/mesh.h"
 #include "physics/body/distance_field.h"
 #include "physics/body/exact_distance.h"
 

@@ -6,6 +6,7 @@
 
 #include "bridge/arrays/gather.h"
 #include "bridge/keeping/keep.h"
+#include "geometry/mesh/mesh.h"
 
 namespace furrow::cases {
 

@@ -28,7 +28,7 @@ std::vector<SectionLoop> horizontal_section(const Mesh& mesh, double height) {
     const auto c = corners_of(mesh, f);
     triangles.push_back({int(c[0]), int(c[1]), int(c[2])});
   }
-  return horizontal_section(points, triangles, height);
+  return furrow::geometry::horizontal_section(points, triangles, height);
 }
 
 SectionLoop polygon(const std::vector<std::array<double, 2>>& points) {
