@@ -2,6 +2,7 @@
 #include "studio/gallery.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "jobs/base/read_inputs.h"
 

@@ -5,6 +5,7 @@
 // writing.
 #include <cstdio>
 #include <exception>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 
 #include "io/base/number_text.h"
 #include "jobs/base/read_inputs.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/move/give_motion.h"
 
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "io/scene/settings_table.h"

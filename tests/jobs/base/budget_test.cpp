@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "geometry/mesh/sheet.h"
 #include "jobs/chain/keep.h"

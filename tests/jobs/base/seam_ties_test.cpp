@@ -2,6 +2,7 @@
 #include "jobs/base/seam_ties.h"
 
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 #include "geometry/mesh/measures.h"
 #include "geometry/mesh/struts.h"

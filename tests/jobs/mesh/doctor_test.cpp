@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/measures.h"

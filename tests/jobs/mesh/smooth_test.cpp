@@ -2,6 +2,7 @@
 #include "jobs/mesh/smooth.h"
 
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 #include "physics/base/progress.h"
 #include "tests/jobs/job_folders.h"

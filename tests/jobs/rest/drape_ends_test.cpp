@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/sheet.h"
