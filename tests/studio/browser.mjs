@@ -4,7 +4,7 @@
 // skipped, where there is no Chromium.
 import assert from "node:assert/strict";
 import { spawn, spawnSync } from "node:child_process";
-import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { existsSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -170,10 +170,17 @@ export async function end(program) {
   assert.equal(await ended, 0);
 }
 
-/** Does the test, and leaves nothing behind. */
+/** Does the test, and leaves nothing behind. A browser on a busy machine may be late: what fails is done once more, from a
+ * new start, and said. */
 export async function run(test) {
   try {
-    await test();
+    await test().catch(async (first) => {
+      console.log(`failed, and is done once more: ${first.stack}`);
+      for (const program of running.splice(0)) program.removeAllListeners("exit").kill("SIGKILL");
+      for (const context of browser.contexts()) await context.close();
+      for (const name of readdirSync(scratch)) rmSync(join(scratch, name), { recursive: true });
+      await test();
+    });
     console.log("1 passed, 0 failed");
   } finally {
     for (const program of running) program.kill("SIGKILL");
