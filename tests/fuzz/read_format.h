@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "geometry/mesh/errors.h"
+#include "geometry/mesh/mesh.h"
 #include "io/animation/animation_file.h"
 #include "io/base/camera_file.h"
 #include "io/mesh/mesh_file.h"
