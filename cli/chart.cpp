@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cli/common.h"
+#include "cli/print_text.h"
 #include "cli/scene_flags.h"
 #include "cli/subcommands.h"
 #include "jobs/base/read_inputs.h"
@@ -58,7 +59,7 @@ int chart(ChartArguments& a) {
   const Judgement& j = report.judgement;
   const int code = exit_code_of(j.broken == Broken::interrupted, j.has_answer());
   if (code != exit_ok)
-    std::cerr << "error: " << a.in << ": " << words(report.judgement, report.scene_dt) << "\n";
+    std::cerr << "error: " << a.in << ": " << worded(words(report.judgement, report.scene_dt)) << "\n";
   return code;
 }
 

@@ -121,17 +121,19 @@ void flush_output() {
 void print_report(const Json& report, const CommonArguments& common, const Summary& summary) {
   std::ostream& out = common.out == "-" ? std::cerr : std::cout;
   if (common.json) {
-    out << finite_report(report).dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
+    out << worded_report(finite_report(report)).dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
   } else if (!common.quiet) {
-    print_summary(out, summary);
-    if (common.verbose || summary.lines.empty()) print_text(out, report);
+    Summary said = summary;
+    for (std::string& line : said.lines) line = worded(line);
+    print_summary(out, said);
+    if (common.verbose || summary.lines.empty()) print_text(out, worded_report(report));
   }
   out.flush();
   flush_output();
 }
 
 void warn(const std::string& message, const CommonArguments& common) {
-  if (!common.quiet) std::cerr << "warning: " << message << "\n";
+  if (!common.quiet) std::cerr << "warning: " << worded(message) << "\n";
 }
 
 std::vector<std::string> names_of_files(std::vector<std::string> names) {

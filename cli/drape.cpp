@@ -8,6 +8,7 @@
 
 #include "cli/camera_options.h"
 #include "cli/help.h"
+#include "cli/print_text.h"
 #include "cli/scene_flags.h"
 #include "cli/subcommands.h"
 #include "io/base/atomic_file.h"
@@ -203,7 +204,7 @@ int tell_remarks(const DrapeJobReport& report, const DrapeArguments& a, Terminal
   if (report.budget_spent) report_spent_budget(a.budget, written_files(report, a));
   for (const DrapeRemark& r : report.remarks) {
     if (r.fails)
-      std::cerr << "error: " << r.remark.text << "\n";
+      std::cerr << "error: " << worded(r.remark.text) << "\n";
     else
       terminal.warn(r.remark);
   }

@@ -10,6 +10,7 @@
 
 #include "cli/common.h"
 #include "cli/help.h"
+#include "cli/print_text.h"
 #include "cli/subcommands.h"
 #include "cli/usage_words.h"
 #include "geometry/mesh/errors.h"
@@ -59,7 +60,7 @@ std::vector<std::string> words_of(int argc, char** argv) {
 }
 
 int fail(int code, const std::string& message) {
-  std::cerr << "error: " << message << "\n";
+  std::cerr << "error: " << cli::worded(message) << "\n";
   return code;
 }
 

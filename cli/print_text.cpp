@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "io/base/field_words.h"
+
 namespace furrow::cli {
 namespace {
 
@@ -55,7 +57,22 @@ void print_table(std::ostream& out, const Json& rows, const std::string& indent)
   }
 }
 
+/// "furrow doctor --repair", "--set body.tolerance=0.01".
+std::string flag_words(const io::NamedField& named) {
+  std::string words = named.job.empty() ? "" : "furrow " + named.job;
+  if (!words.empty() && !named.field.empty()) words += " ";
+  if (named.field.find('.') != std::string::npos)
+    return words + io::flag_of("set", named.field + (named.value.empty() ? "" : "=" + named.value));
+  return words + (named.field.empty() ? "" : io::flag_of(named.field, named.value));
+}
+
 }  // namespace
+
+std::string worded(const std::string& text) { return io::worded(text, flag_words); }
+
+Json worded_report(const Json& report) {
+  return io::with_texts(report, [](const std::string& text) { return worded(text); });
+}
 
 void print_text(std::ostream& out, const Json& value, const std::string& indent) {
   for (const auto& [key, item] : value.items()) {

@@ -3,6 +3,7 @@
 
 #include "cli/common.h"
 #include "cli/help.h"
+#include "io/base/field_words.h"
 #include "jobs/base/read_inputs.h"
 
 namespace furrow::cli {
@@ -15,6 +16,13 @@ io::Json value_of(const std::string& text, bool is_text) {
     return io::parse_value("[" + text + "]");
   return io::parse_value(text);
 }
+
+/// "-o,--output": the output alone has a letter.
+std::string flags_of(const io::Setting& s) {
+  return (s.path == "output.mesh" ? "-o," : "") + io::flag_of(s.keyword);
+}
+
+std::string flag_name(const io::Setting& s) { return io::flag_of(s.keyword); }
 
 /// The group of --help that the settings of this table belong in.
 const char* group_of(const std::string& table, unsigned subcommand) {
@@ -37,19 +45,19 @@ void add_pins(io::TomlDocument& document, const char* kind, io::Json value, cons
 }  // namespace
 
 void SceneFlags::add_to(CLI::App& sub, unsigned subcommand) {
-  const auto has = [&](const io::Setting& s) { return !s.flag.empty() && (s.flag_in & subcommand); };
+  const auto has = [&](const io::Setting& s) { return !s.keyword.empty() && (s.flag_in & subcommand); };
   for (const io::Setting& s : io::scene_settings()) {
     if (!has(s) || s.kind == io::Kind::yes_no || s.table() == "pins") continue;
-    Given& g = given_.emplace_back(Given{&s, s.long_flag()});
+    Given& g = given_.emplace_back(Given{&s});
     begin_group_of(sub, s, subcommand);
-    g.option = sub.add_option(s.flag, g.text, io::described(s, &io::Setting::long_flag))
+    g.option = sub.add_option(flags_of(s), g.text, io::described(s, flag_name))
                    ->type_name(s.is_text() ? "TEXT" : "NUMBER");
   }
   for (const io::Setting& s : io::scene_settings()) {
     if (!has(s) || s.kind != io::Kind::yes_no) continue;
-    Given& g = given_.emplace_back(Given{&s, s.long_flag()});
+    Given& g = given_.emplace_back(Given{&s});
     begin_group_of(sub, s, subcommand);
-    g.option = sub.add_flag(s.flag, g.is_on, io::described(s, &io::Setting::long_flag));
+    g.option = sub.add_flag(flags_of(s), g.is_on, io::described(s, flag_name));
   }
   add_pin_flags(sub, subcommand);
   if (subcommand & io::used_by::wrinkle) return;
@@ -63,7 +71,7 @@ void SceneFlags::add_pin_flags(CLI::App& sub, unsigned subcommand) {
   const auto add = [&](const char* path, auto& values) {
     const io::Setting& s = *io::find_setting(path);
     begin_group_of(sub, s, subcommand);
-    return sub.add_option(s.flag, values, io::described(s, &io::Setting::long_flag));
+    return sub.add_option(flags_of(s), values, io::described(s, flag_name));
   };
   add("pins.box", pin_boxes_)->allow_extra_args(false);
   add("pins.loop", pin_loops_)->allow_extra_args(false);
@@ -76,21 +84,22 @@ void SceneFlags::apply(io::TomlDocument& document) const {
     const io::Setting& s = *g.setting;
     if (!g.option->count()) continue;
     if (s.kind != io::Kind::yes_no)
-      io::set_value(document, s.path, value_of(g.text, s.is_text()), g.flag);
+      io::set_value(document, s.path, value_of(g.text, s.is_text()), s.name());
     else if (g.is_on)
-      io::set_value(document, s.path, true, g.flag);
+      io::set_value(document, s.path, true, s.name());
   }
   for (const std::string& box : pin_boxes_)
-    add_pins(document, "box", parse_numbers(box, 6, "--pin-box"), "--pin-box " + box);
-  for (const std::string& loop : pin_loops_) add_pins(document, "loop", loop, "--pin-loop " + loop);
-  for (const std::string& group : pin_groups_) add_pins(document, "group", group, "--pin-group " + group);
-  if (!pin_vertices_.empty()) add_pins(document, "vertices", pin_vertices_, "--pin-vertices");
+    add_pins(document, "box", parse_numbers(box, 6, "--pin-box"), "`pin_box=" + box + "`");
+  for (const std::string& loop : pin_loops_) add_pins(document, "loop", loop, "`pin_loop=" + loop + "`");
+  for (const std::string& group : pin_groups_)
+    add_pins(document, "group", group, "`pin_group=" + group + "`");
+  if (!pin_vertices_.empty()) add_pins(document, "vertices", pin_vertices_, "`pin_vertices`");
   apply_sets(document, sets_);
 }
 
 std::string SceneFlags::first() const {
   for (const Given& g : given_)
-    if (g.option->count()) return g.flag;
+    if (g.option->count()) return io::flag_of(g.setting->keyword);
   if (!pin_boxes_.empty()) return "--pin-box";
   if (!pin_loops_.empty()) return "--pin-loop";
   if (!pin_groups_.empty()) return "--pin-group";
@@ -101,8 +110,8 @@ io::TomlDocument scene_settings(const std::string& in, const std::string& state_
                                 const std::optional<io::SavedState>& state, const SceneFlags& flags,
                                 const jobs::Frame& frame) {
   io::TomlDocument document = jobs::settings_of(in, state_path, state);
-  if (frame.unit) io::set_value(document, "unit", *frame.unit, "--unit");
-  if (frame.up) io::set_value(document, "up", *frame.up, "--up");
+  if (frame.unit) io::set_value(document, "unit", *frame.unit, "`unit`");
+  if (frame.up) io::set_value(document, "up", *frame.up, "`up`");
   for (const char* list : {"lines", "pins"}) io::make_list(document, list);
   flags.apply(document);
   for (const char* list : {"lines", "pins"}) io::make_list(document, list);
@@ -115,7 +124,7 @@ void apply_sets(io::TomlDocument& document, const std::vector<std::string>& sets
     if (equals == std::string::npos || equals == 0)
       throw UsageError("--set takes key=value, not '" + text + "'");
     try {
-      io::set_value(document, text.substr(0, equals), io::parse_value(text.substr(equals + 1)), "--set");
+      io::set_value(document, text.substr(0, equals), io::parse_value(text.substr(equals + 1)), "`set`");
     } catch (const std::invalid_argument& e) {
       throw UsageError(std::string("--set ") + e.what());
     }

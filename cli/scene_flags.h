@@ -23,7 +23,7 @@ class SceneFlags {
  private:
   struct Given {
     const io::Setting* setting;
-    std::string flag = {}, text = {};
+    std::string text = {};
     bool is_on = false;  ///< of yes_no
     CLI::Option* option = nullptr;
   };

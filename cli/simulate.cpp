@@ -6,6 +6,7 @@
 
 #include "cli/common.h"
 #include "cli/help.h"
+#include "cli/print_text.h"
 #include "cli/scene_flags.h"
 #include "cli/subcommands.h"
 #include "io/scene/equivalent_flags.h"
@@ -84,13 +85,13 @@ int simulate(const SimulateArguments& a) {
   Terminal terminal(a);
   const SimulateReport report = jobs::simulate(job, terminal);
   if (!report.ran) {
-    std::cerr << "error: " << a.in << ": " << words(*report.choice, report.scene_dt) << "\n";
+    std::cerr << "error: " << a.in << ": " << worded(words(*report.choice, report.scene_dt)) << "\n";
     return exit_code_of(report.choice->broken == Broken::interrupted, report.choice->has_answer());
   }
   print(report, a);
   for (const Warning& w : report.warnings) terminal.warn(w);
-  if (!report.failure.empty()) std::cerr << "error: " << report.failure << "\n";
-  for (const Fault& fault : report.faults) std::cerr << "error: " << fault.told.text << "\n";
+  if (!report.failure.empty()) std::cerr << "error: " << worded(report.failure) << "\n";
+  for (const Fault& fault : report.faults) std::cerr << "error: " << worded(fault.told.text) << "\n";
   return exit_code_of(report.run.outcome == physics::Outcome::stopped_by_observer, !report.fails());
 }
 

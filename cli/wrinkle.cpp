@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cli/help.h"
+#include "cli/print_text.h"
 #include "cli/scene_flags.h"
 #include "cli/subcommands.h"
 #include "cli/wrinkle_drawing.h"
@@ -172,7 +173,7 @@ int wrinkle(WrinkleArguments a) {
                : std::vector<std::string>{"furrow", "simulate", "--state", a.out, "-o", "worn.ply"};
   print_report(json, a,
                {wrinkle_lines(json), {a.out, a.inserted, a.smoothed, a.preview, a.camera.save_camera}, next});
-  for (const Warning& w : report.failures) std::cerr << "error: " << w.text << "\n";
+  for (const Warning& w : report.failures) std::cerr << "error: " << worded(w.text) << "\n";
   if (report.budget_spent) report_spent_budget(a.budget, {a.out});
   return exit_code_of(interrupted(), report.failures.empty() && !report.budget_spent);
 }

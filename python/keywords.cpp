@@ -13,15 +13,8 @@ namespace {
 
 const char* const units = "\"m\", \"cm\", \"mm\", \"inch\"";
 
-bool has_flag(const io::Setting& s, unsigned subcommand) {
-  return !s.flag.empty() && (s.flag_in & subcommand);
-}
-
-/// "--body-unit" as "body_unit".
-std::string keyword_of(const io::Setting& s) {
-  std::string name = s.long_flag().substr(2);
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
+bool has_keyword(const io::Setting& s, unsigned subcommand) {
+  return !s.keyword.empty() && (s.flag_in & subcommand);
 }
 
 /// Of a choice: its words, as the schema's range has them between backticks.
@@ -87,7 +80,7 @@ io::TomlDocument document_of(py::handle garment, CalledScene& scene, Memory& mem
   if (garment.is_none()) throw std::invalid_argument("name a garment, a scene (.toml), or state");
   if (py::isinstance<py::dict>(garment)) {
     io::TomlDocument document;
-    set_all(to_json({"scene", garment}, memory), "", "--scene", document);
+    set_all(to_json({"scene", garment}, memory), "", "scene", document);
     return document;
   }
   if (py::isinstance<HeldMesh>(garment))
@@ -150,30 +143,30 @@ void Call::add_pins(const Value& value, const std::string& kind, io::TomlDocumen
   for (Json& set : sets) {
     if (kind == "vertices" && !set.is_array()) set = Json::array({set});
     const std::size_t n = document.root->contains("pins") ? document.root["pins"].size() : 0;
-    io::set_value(document, "pins." + std::to_string(n), Json{{kind, set}}, "--" + value.keyword);
+    io::set_value(document, "pins." + std::to_string(n), Json{{kind, set}}, "`" + value.keyword + "`");
   }
 }
 
 void Call::apply_settings(unsigned subcommand, io::TomlDocument& document, Memory& memory) {
-  if (frame.unit) io::set_value(document, "unit", *frame.unit, "--unit");
-  if (frame.up) io::set_value(document, "up", *frame.up, "--up");
+  if (frame.unit) io::set_value(document, "unit", *frame.unit, "`unit`");
+  if (frame.up) io::set_value(document, "up", *frame.up, "`up`");
   make_lists(document);
   for (const io::Setting& s : io::scene_settings()) {
-    if (!has_flag(s, subcommand)) continue;
+    if (!has_keyword(s, subcommand)) continue;
     for (const auto& [name, given] : given_) {
-      if (name != keyword_of(s)) continue;
+      if (name != s.keyword) continue;
       if (!used_.insert(name).second) continue;  // the job's own, as drape's subdivide
       if (s.table() == "pins")
         add_pins({name, given}, s.key(), document, memory);
       else
-        io::set_value(document, s.path, to_json({name, given}, memory), s.long_flag());
+        io::set_value(document, s.path, to_json({name, given}, memory), s.name());
     }
   }
   for (const auto& [name, given] : given_) {
     if (name != "settings") continue;
     if (!py::isinstance<py::dict>(given)) Value{name, given}.fail("a dict of settings");
     used_.insert(name);
-    set_all(to_json({name, given}, memory), "", "--settings", document);
+    set_all(to_json({name, given}, memory), "", "settings", document);
   }
   make_lists(document);
 }
@@ -200,7 +193,8 @@ std::vector<KeywordWords> common_keywords() {
 std::vector<KeywordWords> setting_keywords(unsigned subcommand) {
   std::vector<KeywordWords> words;
   for (const io::Setting& s : io::scene_settings())
-    if (has_flag(s, subcommand)) words.push_back({keyword_of(s), type_of(s), io::described(s, keyword_of)});
+    if (has_keyword(s, subcommand))
+      words.push_back({s.keyword, type_of(s), io::described(s, std::mem_fn(&io::Setting::keyword))});
   words.push_back({"settings", "Mapping[str, Any]", "any settings of a scene: {\"material.bending\": 1}"});
   return words;
 }

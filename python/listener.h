@@ -8,6 +8,12 @@
 
 namespace furrow::python {
 
+/// A message with the keywords that its fields are here: cloth_thickness, self_contact="on",
+/// furrow.doctor(repair=True).
+std::string in_python(const std::string& message);
+/// The same for every text of a report.
+Json report_in_python(Json report);
+
 /// Tells Python's callables how a job goes on. The job runs without the interpreter's lock, which is taken
 /// for each call; at most every 50 ms, warnings aside. An exception of a callable, or that of a signal
 /// (Ctrl-C), cancels the job and is kept for rethrow().

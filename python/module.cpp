@@ -35,7 +35,8 @@ const Runner& runner_of(const std::string& name) {
 
 py::list told(const std::vector<jobs::Warning>& warnings) {
   py::list list;
-  for (const jobs::Warning& w : warnings) list.append(py::make_tuple(w.code, w.text, w.where, w.help));
+  for (const jobs::Warning& w : warnings)
+    list.append(py::make_tuple(w.code, in_python(w.text), in_python(w.where), in_python(w.help)));
   return list;
 }
 
@@ -54,7 +55,7 @@ py::tuple run(const std::string& job, const py::list& inputs, const py::dict& ke
   call.listener.rethrow();
   py::list meshes;
   for (HeldMesh& mesh : outcome.meshes) meshes.append(py::cast(compact(std::move(mesh))));
-  return py::make_tuple(to_python(jobs::finite_report(std::move(outcome.report))), meshes,
+  return py::make_tuple(to_python(report_in_python(jobs::finite_report(std::move(outcome.report)))), meshes,
                         told(outcome.failures), outcome.succeeded);
 }
 
@@ -89,8 +90,8 @@ void write_mesh(const HeldMesh& mesh, py::handle path, const py::dict& keywords,
 
 py::object info(const HeldMesh& mesh) { return to_python(jobs::finite_report(jobs::info(mesh.file))); }
 
-/// Errors of the libraries as those of the package; what pybind11 knows itself is not named here:
-/// std::invalid_argument is ValueError, std::runtime_error RuntimeError, std::bad_alloc MemoryError.
+/// Errors of the libraries as those of the package, with keywords in their messages; std::bad_alloc is
+/// MemoryError by pybind11 itself.
 void translate_errors(const py::object& errors) {
   static PyObject *content, *cancelled, *too_much;  // live as long as the interpreter
   content = py::object(errors["ContentError"]).release().ptr();
@@ -100,11 +101,17 @@ void translate_errors(const py::object& errors) {
     try {
       if (p) std::rethrow_exception(p);
     } catch (const geometry::ContentError& e) {
-      PyErr_SetString(content, e.what());
+      PyErr_SetString(content, in_python(e.what()).c_str());
     } catch (const physics::Cancelled& e) {
       PyErr_SetString(cancelled, e.what());
     } catch (const physics::TooMuchWork& e) {
-      PyErr_SetString(too_much, e.what());
+      PyErr_SetString(too_much, in_python(e.what()).c_str());
+    } catch (const std::invalid_argument& e) {
+      PyErr_SetString(PyExc_ValueError, in_python(e.what()).c_str());
+    } catch (const py::builtin_exception&) {
+      throw;
+    } catch (const std::runtime_error& e) {
+      PyErr_SetString(PyExc_RuntimeError, in_python(e.what()).c_str());
     }
   });
 }

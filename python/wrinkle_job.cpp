@@ -160,8 +160,8 @@ jobs::SceneInput surroundings(const WrinkleCall& c, py::handle garment, Call& ca
   } else if (const auto* path = std::get_if<std::filesystem::path>(&c.job.garment); path && !c.job.state) {
     jobs::take_recorded_material(scene.settings, *path);
   }
-  if (c.job.density) io::set_value(scene.settings, "material.density", *c.job.density, "--density");
-  if (c.keep) io::set_value(scene.settings, "garment.rest", "keep", "--rest keep");
+  if (c.job.density) io::set_value(scene.settings, "material.density", *c.job.density, "`density`");
+  if (c.keep) io::set_value(scene.settings, "garment.rest", "keep", "`rest=keep`");
   return scene;
 }
 

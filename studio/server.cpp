@@ -16,9 +16,11 @@
 #include <stdexcept>
 #include <thread>
 
+#include "io/base/field_words.h"
 #include "studio/frame_bytes.h"
 #include "studio/message.h"
 #include "studio/page_files.h"
+#include "studio/page_words.h"
 #include "studio/uploads.h"
 #include "studio/worker.h"
 
@@ -370,10 +372,10 @@ unsigned short Server::port() const { return parts_->port; }
 const std::string& Server::token() const { return parts_->token; }
 
 void Server::tell(Client client, const jobs::Json& message) {
-  send(
-      client,
-      std::make_shared<const std::string>(message.dump(-1, ' ', false, jobs::Json::error_handler_t::replace)),
-      false);
+  send(client,
+       std::make_shared<const std::string>(
+           io::with_texts(message, in_page).dump(-1, ' ', false, jobs::Json::error_handler_t::replace)),
+       false);
 }
 
 void Server::show(Client client, Bytes frame) { send(client, std::move(frame), true); }

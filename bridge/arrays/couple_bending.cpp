@@ -28,7 +28,7 @@ std::vector<std::array<double, 3>> opposite_lengths(const Mesh& mesh, Membrane m
     if (!(l > 0) || !std::isfinite(l))
       throw ContentError("the edge between vertices " + std::to_string(mesh.source(h).idx()) + " and " +
                          std::to_string(mesh.target(h).idx()) + " has rest length " + std::to_string(l) +
-                         "; remove it (furrow info counts degenerate faces)");
+                         "; remove it (`furrow info` counts degenerate faces)");
     return l;
   };
   std::vector<std::array<double, 3>> result;

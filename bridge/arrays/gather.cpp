@@ -54,7 +54,7 @@ double require_length(double rest, Vertex a, Vertex b) {
   if (!(rest > 0) || !std::isfinite(rest))
     throw ContentError("the spring between vertices " + std::to_string(a.idx()) + " and " +
                        std::to_string(b.idx()) + " has rest length " + std::to_string(rest) +
-                       "; remove the edge (furrow info counts degenerate faces)");
+                       "; remove the edge (`furrow info` counts degenerate faces)");
   return rest;
 }
 

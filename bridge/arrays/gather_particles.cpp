@@ -36,8 +36,8 @@ physics::Particles gather_particles(const geometry::Mesh& mesh, MassRule rule) {
     const double m = loose[v] ? 0 : (*mass)[v];
     if (!(m >= 0) || (m == 0 && !loose[v]))
       throw ContentError("vertex " + std::to_string(v) + " has mass " + std::to_string(m) +
-                         (is_chain(mesh) ? "; a vertex with links needs one, or say --line-density"
-                                         : "; remove its faces (furrow info counts degenerate ones)"));
+                         (is_chain(mesh) ? "; a vertex with links needs one, or say `line_density`"
+                                         : "; remove its faces (`furrow info` counts degenerate ones)"));
     p.x.push_back(to_eigen(mesh.point(v)));
     p.v.push_back(velocity ? to_eigen(CGAL::ORIGIN + (*velocity)[v]) : physics::Vec3::Zero());
     p.mass.push_back(m);

@@ -3,6 +3,7 @@
 
 #include <sstream>
 
+#include "io/base/field_words.h"
 #include "io/scene/settings_schema.h"
 
 namespace furrow::cli {
@@ -30,14 +31,16 @@ std::vector<std::string> quoted_words(const std::string& range) {
   return words;
 }
 
+std::string flag_name(const io::Setting& s) { return io::flag_of(s.keyword); }
+
 /// Of the check that the option has, or of the setting that it sets; a setting's flag has the setting's help.
 std::vector<std::string> choices_of(const CLI::Option& option) {
   const std::vector<std::string> words = words_between(option.get_type_name(), '{', '}', ',');
   if (!words.empty()) return words;
   const std::string help = option.get_description();
   for (const io::Setting& s : io::scene_settings())
-    if (s.kind == io::Kind::choice && !s.flag.empty() && option.check_name(s.long_flag()) &&
-        help == io::described(s, &io::Setting::long_flag))
+    if (s.kind == io::Kind::choice && !s.keyword.empty() && option.check_name(flag_name(s)) &&
+        help == io::described(s, flag_name))
       return quoted_words(s.range);
   return words;
 }

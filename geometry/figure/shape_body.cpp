@@ -45,7 +45,7 @@ struct MeasuredBody {
 MeasuredBody measured(std::span<const Point> points, Triangles triangles) {
   const char* const fault =
       "the body has no torso that could be measured: it must stand upright, 0.9 to 2.5 m high, y up; look at "
-      "--unit and --up";
+      "`unit` and `up`";
   if (points.empty()) throw ContentError("the body is empty");
   MeasuredBody body;
   body.levels = torso_levels(points, triangles);

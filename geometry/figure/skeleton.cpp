@@ -134,7 +134,7 @@ Skeleton find_skeleton(std::span<const Point> points, Faces triangles) {
   if (!heights)
     throw ContentError(
         "the body has no torso that could be found: it must stand upright, 0.9 to 2.5 m high, y up, and its "
-        "arms must not grow together with the trunk; look at --unit, --body-unit and --up");
+        "arms must not grow together with the trunk; look at `unit`, `body_unit` and `up`");
   s.crotch = levels.front().height;
   s.waist = heights->waist;
   s.armpits = levels.back().height;

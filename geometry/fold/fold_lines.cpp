@@ -188,7 +188,7 @@ void require_bearable(const Folds& folds, const BandOptions& refining) {
         length_text(largest->width.front()) + " wide, would take some " +
         std::to_string(std::lround(most / 1e5) / 10.0).substr(0, 5) + " million faces, all lines " +
         std::to_string(std::lround(all / 1e5) / 10.0).substr(0, 5) +
-        ", and 2 are borne; is the garment in metres (--unit)? Draw fewer lines, shorter or wider "
+        ", and 2 are borne; is the garment in metres (`unit`)? Draw fewer lines, shorter or wider "
         "ones, or use the rule safe");
 }
 

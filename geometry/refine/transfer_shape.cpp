@@ -43,7 +43,7 @@ Mesh at_rest(const Mesh& wrinkled) {
       throw ContentError(
           "transfer: the wrinkled mesh does not say where its vertices lay before (vertex " +
           std::to_string(v.idx()) +
-          "); take the PLY that furrow wrinkle wrote, or name the shape before with --rest-shape");
+          "); take the PLY that `furrow wrinkle` wrote, or name the shape before with `rest_shape`");
     mesh.point(v) = {(*rest)[v][0], (*rest)[v][1], (*rest)[v][2]};
   }
   return mesh;
@@ -146,7 +146,7 @@ class Transfer {
       throw ContentError("transfer: vertex " + std::to_string(v.idx()) + " of the original lies " +
                          length_text(hit.distance) + " from the wrinkled mesh at rest, more than " +
                          length_text(options_.max_distance) +
-                         "; are they the same garment, in one unit (--unit)?");
+                         "; are they the same garment, in one unit (`unit`)?");
     report.max_distance = std::max(report.max_distance, hit.distance);
     const auto corners = corners_of(rest_, hit.point.face);
     if (!moved(corners[0]) && !moved(corners[1]) && !moved(corners[2])) return p;

@@ -52,8 +52,8 @@ double known_warp_angle(const Mesh& mesh, Halfedge h, const std::vector<double>&
   const double angle = warp_angle(mesh, h, rest);
   if (std::isnan(angle))
     throw ContentError("face " + std::to_string(mesh.face(h).idx()) +
-                       " has no direction of the warp; say where the threads run (--warp y, texture or a "
-                       "stroke file), or --warp none");
+                       " has no direction of the warp; say where the threads run (`warp=y`, texture or a "
+                       "stroke file), or `warp=none`");
   return angle;
 }
 

@@ -35,7 +35,7 @@ PlacedStroke place_path_stroke(const Mesh& mesh, std::span<const std::size_t> ve
       placing.refuse(i, "the way between vertices " + names + " may lead over " +
                             name_with_place(mesh, *degenerate) +
                             ", which is degenerate (it has no area); remove such faces from the garment "
-                            "(furrow info counts them), or draw this stroke by points");
+                            "(`furrow info` counts them), or draw this stroke by points");
     if (path.empty()) placing.refuse(i, "no cloth joins vertices " + names);
     for (std::size_t k = 1; k < path.size(); ++k) placing.add(CGAL::midpoint(path[k - 1], path[k]));
     placing.add(path.back());

@@ -69,7 +69,7 @@ std::vector<StrokeHit> project(const SurfaceProjector& projector, const StrokeTr
     if (!(hit.distance <= max_distance)) {
       refuse(stroke, i,
              "it is " + length_text(hit.distance) + " from the surface, more than the largest distance of " +
-                 length_text(max_distance) + "; check the unit (--unit), or raise --max-distance");
+                 length_text(max_distance) + "; check the unit (`unit`), or raise `max_distance`");
     }
     hits.push_back(tracer.hit_at(hit, points[i], parameters[i]));
     hits.back().starts = std::binary_search(stroke.breaks.begin(), stroke.breaks.end(), i);

@@ -93,7 +93,7 @@ class GltfMeshWriter {
     tell_maps();
     if (!has_source_ && (options_.metres_per_unit != 1 || options_.up != Axis::y))
       lost_.emplace_back(
-          "the unit and axis of --unit and --up: it is in metres, y up, as every glTF is; "
+          "the unit and axis of `unit` and `up`: it is in metres, y up, as every glTF is; "
           "read it without them");
     return lost_;
   }
@@ -344,7 +344,7 @@ class GltfMeshWriter {
       const double w = skinning.joints[j] ? (*skinning.joints[j])[v] : 0;
       if (!(w >= 0) || std::isinf(w))
         throw std::invalid_argument("mesh: a skin weight of vertex " + std::to_string(v.idx()) +
-                                    " is negative or not finite; furrow doctor names it");
+                                    " is negative or not finite; `furrow doctor` names it");
       if (w > 0) all.emplace_back(-w, static_cast<std::uint16_t>(j));
     }
     std::ranges::sort(all);
@@ -391,7 +391,7 @@ class GltfMeshWriter {
   void tell_weights() {
     if (!crowded_.empty())
       lost_.push_back("all but the four largest skin weights of " + std::to_string(crowded_.size()) +
-                      " vertices, as programs read no more; --max-weights 4 does the same before");
+                      " vertices, as programs read no more; `max_weights=4` does the same before");
     if (!unweighted_.empty())
       lost_.push_back(
           "the rest of " + std::to_string(unweighted_.size()) +

@@ -198,7 +198,7 @@ bool drop_backs(const PolygonSoup& soup, Triangles& triangles, RepairReport& rep
 [[noreturn]] void refuse_without_faces(const PolygonSoup& soup, const std::string& name) {
   if (soup.faces() == 0 && soup.has_lines)
     throw ContentError(name +
-                       ": no faces, only lines: a chain, which furrow simulate moves; here a mesh with at "
+                       ": no faces, only lines: a chain, which `furrow simulate` moves; here a mesh with at "
                        "least one triangle is needed");
   throw ContentError(name + ": no faces" + (soup.faces() ? " but degenerate ones" : "") +
                      "; a mesh with at least one triangle is needed");

@@ -10,6 +10,7 @@
 #include "geometry/mesh/errors.h"
 #include "io/base/bytes_file.h"
 #include "io/base/control_character.h"
+#include "io/base/field_words.h"
 #include "io/base/nearest_word.h"
 #include "io/scene/csv.h"
 #include "io/scene/scene.h"
@@ -206,9 +207,9 @@ BatchCase case_of(const std::string& version, const std::string& command, BatchR
     if (v.column == "garment")
       result.arguments.insert(result.arguments.begin() + 1, v.texts.begin(), v.texts.end());
     if (v.column == "garment") continue;
-    if (v.texts.empty()) result.arguments.push_back("--" + v.column);
+    if (v.texts.empty()) result.arguments.push_back(flag_of(v.column));
     for (const std::string& text : v.texts) {
-      result.arguments.push_back("--" + v.column);
+      result.arguments.push_back(flag_of(v.column));
       result.arguments.push_back(text);
     }
   }

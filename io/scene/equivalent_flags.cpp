@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "io/base/field_words.h"
 #include "io/scene/settings_schema.h"
 
 namespace furrow::io {
@@ -16,11 +17,12 @@ std::string quoted(const std::string& text) {
 }
 
 /// One setting: its flag, or --set.
-std::string flag_of(const Json& value, const std::string& path) {
+std::string setting_flags(const Json& value, const std::string& path) {
   const Setting* setting = find_setting(path);
   if (setting && setting->used == used_by::nobody) return "";
-  if (!setting || setting->flag.empty()) return " --set " + quoted(path + "=" + value_text(value));
-  const std::string name = " " + setting->long_flag();
+  if (!setting || setting->keyword.empty())
+    return " " + flag_of("set", quoted(path + "=" + value_text(value)));
+  const std::string name = " " + flag_of(setting->keyword);
   if (setting->kind == Kind::yes_no) return value == true ? name : "";
   return name + " " + quoted(value.is_string() ? value.get<std::string>() : value_text(value));
 }
@@ -37,7 +39,7 @@ void list_flags(const Json& value, const std::string& path, std::string& text) {
   else if (is_tables(value))
     for (std::size_t i = 0; i < value.size(); ++i) list_flags(value[i], path + "." + std::to_string(i), text);
   else
-    text += flag_of(value, path);
+    text += setting_flags(value, path);
 }
 
 /// What is in `now` and not, or otherwise, in `before`; lists of tables keep their length.
@@ -62,7 +64,7 @@ Json difference(const Json& now, const Json& before) {
 std::string equivalent_flags(const Json& settings, const std::string& state, const Json& before) {
   std::string text;
   list_flags(state.empty() ? settings : difference(settings, before), "", text);
-  return "simulate" + (state.empty() ? "" : " --state " + quoted(state)) + text;
+  return "simulate" + (state.empty() ? "" : " " + flag_of("state", quoted(state))) + text;
 }
 
 }  // namespace furrow::io

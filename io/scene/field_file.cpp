@@ -38,7 +38,7 @@ void write_field(const std::filesystem::path& path, const physics::DistanceField
 physics::DistanceField read_field(const std::filesystem::path& path, const physics::TriangleMesh& body) {
   const std::vector<std::byte> bytes = read_bytes(path);
   const auto fail = [&](const std::string& what) {
-    return geometry::ContentError(path.string() + ": " + what + "; make it again with furrow sdf");
+    return geometry::ContentError(path.string() + ": " + what + "; make it again with `furrow sdf`");
   };
   std::uint64_t mark = 0;
   if (bytes.size() < sizeof mark) throw fail("not a distance field");
@@ -46,7 +46,7 @@ physics::DistanceField read_field(const std::filesystem::path& path, const physi
   try {
     physics::DistanceField field = physics::DistanceField::from_bytes(std::span(bytes).subspan(sizeof mark));
     if (mark != fingerprint(body))
-      throw fail("the distance field of another body, or of this one in another unit (--unit, --up)");
+      throw fail("the distance field of another body, or of this one in another unit (`unit`, `up`)");
     return field;
   } catch (const std::invalid_argument& e) {
     throw fail(e.what());

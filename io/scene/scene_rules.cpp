@@ -35,7 +35,7 @@ void check_threads(SettingsTable& table, const SceneMaterial& m) {
     if (table.has(key))
       table.fail(key,
                  "is of cloth that is the same in all directions, and this has threads: leave it out, or "
-                 "say warp = \"none\" (--warp none)");
+                 "say warp = \"none\" (`warp=none`)");
 }
 
 [[noreturn]] void fail(const TomlDocument& document, const std::string& path, const std::string& what) {
@@ -98,19 +98,19 @@ void check_simulation(SettingsTable& table, const Scene& scene) {
 void check_settle(const Scene& scene, const TomlDocument& document) {
   if (!scene.output.settled.empty() && !scene.settle)
     throw geometry::ContentError(document.place("output.settled") +
-                                 ": output.settled needs settle in [simulation] (--settle)");
+                                 ": output.settled needs settle in [simulation] (`settle`)");
   if (scene.settle && !scene.body && scene.pins.empty())
     throw geometry::ContentError(
         document.place("simulation.settle") +
         ": simulation.settle needs what the garment rests on or hangs from: name a "
-        "body (--body), or pins (--pin-loop, --pin-group, --pin-box, --pin-vertices)");
+        "body (`body`), or pins (`pin_loop`, `pin_group`, `pin_box`, `pin_vertices`)");
 }
 
 void check_keep(const Scene& scene, const TomlDocument& document) {
   const std::string path = path_of_keep(scene, true, 0);
   if (!path.empty() && scene.material.bending_law == bridge::Bending::cross)
     fail(document, path,
-         "needs hinges, for springs cannot tell a ridge from a valley: name a fabric (--fabric, "
+         "needs hinges, for springs cannot tell a ridge from a valley: name a fabric (`fabric`, "
          "material.preset), or bending_law = \"hinge\" and a rigidity");
 }
 

@@ -25,7 +25,8 @@ enum class Kind { number, whole, yes_no, text, choice, path, vector, list, table
 struct Setting {
   /// "material.friction"; "lines.time": of each in the list; "spin.rate": of each such table inside others.
   std::string path = {};
-  std::string flag = {};                ///< as "-o,--output"; "": --set alone reaches it
+  /// Of Python, and with dashes the flag: "body_unit"; "": the path alone reaches it; "=": the key.
+  std::string keyword = "=";
   unsigned shown_in = used_by::nobody;  ///< whose --help shows it; elsewhere --help-all alone does
   std::string what = {};                ///< in Markdown; other settings by their keys, in backticks
   std::string usual = {};               ///< the default in words; "": the value that a new Scene has
@@ -35,9 +36,10 @@ struct Setting {
   Kind kind = Kind::text;              ///< filled in by the row, as the next one
   std::string range = {};              ///< in words, with the unit: "> 0 [m]"
 
-  std::string table() const;      ///< "material"; "" at the root
-  std::string key() const;        ///< "friction"
-  std::string long_flag() const;  ///< "--output"
+  std::string table() const;  ///< "material"; "" at the root
+  std::string key() const;    ///< "friction"
+  /// "`body_unit`", "`lines.time`": as messages name it.
+  std::string name() const { return "`" + (keyword.empty() ? path : keyword) + "`"; }
   /// Whether the command line gives it as it stands, without TOML's quotes.
   bool is_text() const { return kind == Kind::text || kind == Kind::choice || kind == Kind::path; }
 };

@@ -45,7 +45,7 @@ void SettingsTable::refuse_list(const std::string& path, const Json& item) const
   const bool tables = item.is_array() && !item.empty() && item[0].is_object();
   throw geometry::ContentError(document_.place(path) + ": " + path +
                                (tables ? " may be there once; write [" + path + "], not [[" + path + "]]" +
-                                             (path == "garment" ? "; furrow drape alone takes several" : "")
+                                             (path == "garment" ? "; `furrow drape` alone takes several" : "")
                                        : " = " + value_text(item) + " must be a table of settings" +
                                              (item.is_string() && (path == "garment" || path == "body")
                                                   ? "; write " + path + ".mesh = " + value_text(item)

@@ -376,7 +376,7 @@ SavedState parse_state(const std::string& bytes, const std::string& name) {
   MeshFile file = read_ply(bytes, name, options);
   const auto comment = std::find_if(file.comments.begin(), file.comments.end(), is_state);
   if (comment == file.comments.end() || !find_map(file.mesh, attribute::velocity))
-    throw ContentError(name + ": is no saved state; furrow simulate --save-state writes one");
+    throw ContentError(name + ": is no saved state; `furrow simulate save_state` writes one");
   if (file.repairs.any())
     throw ContentError(name + ": the mesh of the saved state is damaged; write the state again");
   const auto refuse = [&](const std::string& what) {

@@ -126,7 +126,7 @@ class StrokeReader {
   void read_pixels(const Json& item, DrawnStroke& drawn) {
     if (!item.contains("camera") && !camera_)
       fields_.fail(
-          "'pixels' need a 'camera', here or for the whole file; furrow render --save-camera writes it");
+          "'pixels' need a 'camera', here or for the whole file; `furrow render save_camera` writes it");
     PictureStroke on{item.contains("camera") ? read_picture(item["camera"]) : *camera_, {}};
     read_list(item["pixels"], "pixels", "pixel [column, row]", [&](const Json& p) {
       on.pixels.push_back(read_pair(p, "pixels", "two numbers [column, row]"));

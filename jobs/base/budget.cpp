@@ -39,7 +39,7 @@ void Budget::throw_spent() const {
   std::snprintf(
       text, sizeof text,
       "%s: its budget of %.4g s of processor time was spent before there was anything to write; give it "
-      "more with --budget, or refine less",
+      "more with `budget`, or refine less",
       job_.c_str(), seconds_);
   throw BudgetSpent(text);
 }

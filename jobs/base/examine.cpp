@@ -60,7 +60,7 @@ Point middle_of(const Mesh& mesh, Face f) {
 void add_repairs(const io::RepairReport& r, std::vector<Ailment>& found) {
   const auto add = [&](std::size_t n, const char* code, const std::string& what) {
     if (n == 0) return;
-    Ailment a{code, std::to_string(n) + " " + what, "furrow doctor --repair writes them so"};
+    Ailment a{code, std::to_string(n) + " " + what, "`furrow doctor repair` writes them so"};
     a.count = n, a.mendable = true, a.told_by_reader = true;
     found.push_back(std::move(a));
   };
@@ -105,7 +105,7 @@ void add_doubled(const Mesh& mesh, const Places& places, std::vector<Ailment>& f
            " vertices lie where another does" +
            (soup ? ": the file is a soup of loose triangles, which would fall apart"
                  : ": what meets there is not joined, and falls apart");
-  a.help = "furrow doctor --repair joins them";
+  a.help = "`furrow doctor repair` joins them";
   a.count = places.doubled.size();
   a.fatal = soup;
   a.mendable = true;
@@ -135,7 +135,7 @@ std::size_t count_backed(const Mesh& mesh, const Places& places, std::vector<Poi
 }
 
 void add_holes(const Mesh& mesh, std::vector<Ailment>& found) {
-  Ailment a{"holes", "", "furrow doctor --repair closes them"};
+  Ailment a{"holes", "", "`furrow doctor repair` closes them"};
   double longest = 0;
   for (const geometry::BorderLoop& loop : geometry::border_loops(mesh)) {
     if (loop.vertices.size() > edges_of_hole || loop.vertices.size() >= mesh.number_of_faces()) continue;
@@ -213,7 +213,7 @@ std::vector<Ailment> faults_of_garment(const Mesh& garment) {
   if (2 * a.count > 0.5 * double(garment.number_of_faces())) {
     a.text = std::to_string(a.count) +
              " faces lie on others of the same corners: the garment has two sides, twice its weight";
-    a.help = "furrow doctor --repair takes off one";
+    a.help = "`furrow doctor repair` takes off one";
     a.mendable = true;
     return {a};
   }
@@ -235,9 +235,9 @@ std::vector<Ailment> faults_of_body(const Mesh& body, bool up_said) {
   const bool long_enough = size.z() >= smallest_person && size.z() <= largest_person;
   if (!long_enough || size.y() > 0.35 * size.z() || size.x() > 1.15 * size.z()) return {};
   if (!is_figure(body, box)) return {};
-  Ailment a{"z_up", "", "--up z"};
+  Ailment a{"z_up", "", "`up=z`"};
   a.text = "the body is " + three_digits(size.z()) + " m long along z and only " + three_digits(size.y()) +
-           " m high, as a figure of a file whose z axis points up; say --up z, or --up y if it is to lie";
+           " m high, as a figure of a file whose z axis points up; say `up=z`, or `up=y` if it is to lie";
   a.fatal = true;
   return {a};
 }
@@ -263,10 +263,10 @@ std::optional<Ailment> exchanged(const Mesh& garment, const BodyOutline& body) {
   if (body.closed || box.isEmpty()) return std::nullopt;
   const bool closed = geometry::measure(garment).closed;
   if ((body.nearly_closed && !closed) || !is_body(garment, box, closed)) return std::nullopt;
-  Ailment a{"exchanged", "", "--body"};
+  Ailment a{"exchanged", "", "`body`"};
   a.text = "the garment is closed, a figure of " + three_digits(1000 * volume_of(garment, box.center())) +
            " litres, and the body is open: are they exchanged? the garment comes first, the body goes with "
-           "--body";
+           "`body`";
   a.fatal = true;
   return a;
 }
@@ -277,9 +277,9 @@ std::optional<Ailment> worn_on_itself(const Eigen::AlignedBox3d& garment, const 
   const double off = std::max((garment.min() - body.box.min()).cwiseAbs().maxCoeff(),
                               (garment.max() - body.box.max()).cwiseAbs().maxCoeff());
   if (off > 1e-6 * size_of(garment)) return std::nullopt;
-  Ailment a{"worn_on_itself", "", "--body"};
+  Ailment a{"worn_on_itself", "", "`body`"};
   a.text =
-      "the body is the garment itself, and nothing is worn on itself: name the body with --body, in a file "
+      "the body is the garment itself, and nothing is worn on itself: name the body with `body`, in a file "
       "that does not hold the garment";
   a.fatal = true;
   return a;
@@ -352,7 +352,7 @@ namespace {
 void add_apart(const Eigen::AlignedBox3d& garment, const Eigen::AlignedBox3d& body,
                std::vector<Ailment>& found) {
   if (garment.isEmpty() || body.isEmpty() || garment.intersects(body)) return;
-  Ailment a{"body_apart", "", "if they should touch, look at --unit, --up and their places"};
+  Ailment a{"body_apart", "", "if they should touch, look at `unit`, `up` and their places"};
   a.text = "body and garment lie apart, their bounding boxes by " +
            three_digits(garment.exteriorDistance(body)) + " m";
   Eigen::AlignedBox3d forwards, backwards;
@@ -393,7 +393,7 @@ std::optional<Ailment> lying(const Eigen::AlignedBox3d& garment, const BodyOutli
   a.text =
       "the garment lies along z, where the body stands along y, and would be on the body if it stood: "
       "its file has " +
-      its + " up, the body's has " + of_body + " up, and --up turns both; " + a.help;
+      its + " up, the body's has " + of_body + " up, and `up` turns both; " + a.help;
   a.fatal = true;
   return a;
 }
@@ -420,10 +420,10 @@ std::vector<Ailment> faults_of_pair(const Mesh& garment, const BodyOutline& body
   const double ratio = large_body ? wearer / cloth : cloth / wearer;
   const std::string unit = unit_of(ratio);
   if (ratio < odd_ratio || unit.empty()) return found;
-  Ailment a{"two_units", "", large_body ? "--body-unit " + unit : "--unit " + unit + " --body-unit m"};
+  Ailment a{"two_units", "", large_body ? "`body_unit=" + unit + "`" : "`unit=" + unit + "` `body_unit=m`"};
   a.text = "the garment is " + three_digits(cloth) + " m from corner to corner, the body " +
            three_digits(wearer) + " m: their files seem to be in different units; say " + a.help +
-           ", or --body-unit m if both are in metres";
+           ", or `body_unit=m` if both are in metres";
   a.fatal = body.figure;  // floors and slabs may be large
   found.push_back(std::move(a));
   return found;
@@ -433,7 +433,7 @@ void heed(const std::vector<Ailment>& found, const std::string& name, const Cont
   for (const Ailment& a : found)
     if (const std::string fault = name + ": " + a.text + (a.mendable ? "; " + a.help : "");
         a.fatal && !context.listener.allows(fault))
-      throw geometry::ContentError(fault + "; --force takes it as it is");
+      throw geometry::ContentError(fault + "; `force` takes it as it is");
   for (const Ailment& a : found)
     if (!a.told_by_reader && !a.fatal)
       context.warn(a.code, name + ": " + a.text + (a.help.empty() ? "" : "; " + a.help), name, a.help);

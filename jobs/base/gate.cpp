@@ -62,17 +62,17 @@ std::string too_small(double size, const std::string& what, const Frame& frame) 
   const std::string units = units_that_fit(size, frame);
   const std::string it = "the " + what + " is " + geometry::length_text(size) + " in size";
   if (!units.empty())
-    return it + " with --unit " + frame.unit_in_use() + "; say --unit " + units + " if its file is in that" +
-           (what == "body" ? ", or --body-unit for the body alone" : "");
+    return it + " with `unit=" + frame.unit_in_use() + "`; say `unit=" + units + "` if its file is in that" +
+           (what == "body" ? ", or `body_unit` for the body alone" : "");
   if (what != "body" && size >= limits.least_garment) return "";
-  return it + ", and no --unit makes it a person's; scale it";
+  return it + ", and no `unit` makes it a person's; scale it";
 }
 
 }  // namespace
 
 void require_allowed(const std::string& demand, const Context& context) {
   if (!context.listener.allows(demand))
-    throw std::invalid_argument(demand + "; --force goes on all the same");
+    throw std::invalid_argument(demand + "; `force` goes on all the same");
 }
 
 std::string odd_size(const geometry::Mesh& mesh, const std::string& what, const Frame& frame) {
@@ -80,8 +80,8 @@ std::string odd_size(const geometry::Mesh& mesh, const std::string& what, const 
   const bool wide = what != "body" && std::max(x, z) > std::max(height, 10.0);  // a floor may be as wide
   if (height > 10 || wide)
     return "the " + what + " is " + geometry::length_text(wide ? std::max(x, z) : height) +
-           (wide ? " wide" : " tall") + "; if its file is not in metres, say so with --unit cm, mm or inch" +
-           (what == "body" ? ", or with --body-unit if only the body's is not" : "");
+           (wide ? " wide" : " tall") + "; if its file is not in metres, say so with `unit=cm`, mm or inch" +
+           (what == "body" ? ", or with `body_unit` if only the body's is not" : "");
   return too_small(std::max({x, height, z}), what, frame);
 }
 
@@ -89,7 +89,7 @@ void require_size(const geometry::Mesh& mesh, const std::string& name, const std
                   const Context& context) {
   const std::string fault = odd_size(mesh, what, context.frame);
   if (fault.empty() || context.listener.allows(name + ": " + fault)) return;
-  throw geometry::ContentError(name + ": " + fault + "; --force takes it as it is");
+  throw geometry::ContentError(name + ": " + fault + "; `force` takes it as it is");
 }
 
 void require_area(const geometry::Mesh& mesh, const std::string& name) {
@@ -121,7 +121,7 @@ void require_heights(const std::vector<io::DrawnStroke>& strokes, const geometry
     if (std::abs(height) <= size)
       context.warn("height", demand, "", "height");
     else if (!context.listener.allows(demand))
-      throw geometry::ContentError(demand + "; --force draws it as it is");
+      throw geometry::ContentError(demand + "; `force` draws it as it is");
   }
 }
 
@@ -130,7 +130,7 @@ void require_refinement(std::size_t faces, double children, int steps, const std
   const double refined = double(faces) * std::pow(children, steps);
   if (refined <= limits.faces) return;
   constexpr double bytes_a_face = 600;  // measured: a mesh with its rest, while it is refined
-  require_allowed(text_of("%s %d: the mesh would have %.2g faces and take %.2g GB; refine it less",
+  require_allowed(text_of("`%s=%d`: the mesh would have %.2g faces and take %.2g GB; refine it less",
                           option.c_str(), steps, refined, 1e-9 * bytes_a_face * refined),
                   context);
 }
@@ -138,7 +138,7 @@ void require_refinement(std::size_t faces, double children, int steps, const std
 void require_animation(double seconds, double fps, std::size_t vertices, const Context& context) {
   const double frames = seconds * fps, bytes = frames * 12 * double(vertices);
   if (frames <= limits.frames && bytes <= limits.animation_bytes) return;
-  require_allowed(text_of("--fps %.4g: the animation would have %.2g frames and take %.2g GB; lower it", fps,
+  require_allowed(text_of("`fps=%.4g`: the animation would have %.2g frames and take %.2g GB; lower it", fps,
                           frames, 1e-9 * bytes),
                   context);
 }
@@ -149,10 +149,10 @@ void SimulationGate::check(const physics::SimulateProgress& progress) {
   require_allowed(
       text_of("%.2g steps of %.2g s are to come, about %s of processor time; %s", steps, progress.dt,
               duration_text(steps * cost_of_step_).c_str(),
-              step_is_set_ ? "take a longer --dt, or leave it out"
-                           : "steps are that short where cloth is light for its stiffness (--density), or "
-                             "faces are next to nothing (furrow info: min_angle_deg): mend these, or try "
-                             "--integrator implicit"),
+              step_is_set_ ? "take a longer `dt`, or leave it out"
+                           : "steps are that short where cloth is light for its stiffness (`density`), or "
+                             "faces are next to nothing (`furrow info`: min_angle_deg): mend these, or try "
+                             "`integrator=implicit`"),
       context_);
   allowed_ = true;
 }

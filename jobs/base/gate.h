@@ -22,7 +22,7 @@ struct Limits {
 };
 constexpr Limits limits;
 
-/// Throws std::invalid_argument "<demand>; --force goes on all the same" unless the listener allows it.
+/// Throws std::invalid_argument "<demand>; `force` goes on all the same" unless the listener allows it.
 void require_allowed(const std::string& demand, const Context& context);
 
 /// What is odd about the size of a mesh: taller than 10 m, wider unless it is a body, or too small, with the

@@ -89,8 +89,9 @@ io::MeshFile read_file(const std::string& path, const Context& context, Chains c
   actual.up = noted && !frame.up ? record->up : frame.up_in_use();
   if (*actual.unit != frame.unit_in_use() || *actual.up != frame.up_in_use()) file = read(actual);
   if (noted && (record->unit != *actual.unit || record->up != *actual.up))
-    context.warn("other_frame", path + ": was written with --unit " + record->unit + " --up " + record->up,
-                 path, "unit");
+    context.warn("other_frame",
+                 path + ": was written with `unit=" + record->unit + "` `up=" + record->up + "`", path,
+                 "unit");
   tell_repairs(path, file, context);
   io::drop_motion(file);  // a state that is used as a mesh is one
   return file;
@@ -168,10 +169,10 @@ io::TomlDocument settings_of(const std::string& scene_or_garment, const std::str
   if (is_scene(scene_or_garment)) return io::read_toml(scene_or_garment);
   if (state) {
     if (!scene_or_garment.empty())
-      throw std::invalid_argument(scene_or_garment + ": --state has its garment; leave out the mesh");
+      throw std::invalid_argument(scene_or_garment + ": `state` has its garment; leave out the mesh");
     return io::document_of(state->scene, state_path);
   }
-  if (scene_or_garment.empty()) throw std::invalid_argument("name a garment, a scene (.toml), or --state");
+  if (scene_or_garment.empty()) throw std::invalid_argument("name a garment, a scene (.toml), or `state`");
   io::TomlDocument document;
   io::set_value(document, "garment.mesh", scene_or_garment, "the garment");
   return document;
@@ -185,7 +186,7 @@ auto blaming_flags(const Work& work) {
   try {
     return work();
   } catch (const geometry::ContentError& e) {
-    if (std::string(e.what()).rfind("--", 0) == 0) throw std::invalid_argument(e.what());
+    if (std::string(e.what()).starts_with('`')) throw std::invalid_argument(e.what());
     throw;
   }
 }

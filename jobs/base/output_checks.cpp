@@ -67,7 +67,7 @@ void check_replaced(const std::vector<std::string>& outputs, const std::vector<s
     if (!output.empty() && output != "-" && fs::is_regular_file(output, none) && !is_own_output(output) &&
         !listener.replaces(output))
       throw std::invalid_argument(
-          output + ": exists, and furrow did not write it; name another file, or add " + "--replace");
+          output + ": exists, and furrow did not write it; name another file, or add " + "`replace`");
 }
 
 }  // namespace furrow::jobs

@@ -68,7 +68,7 @@ SeamTies all_ties(const io::MeshFile& file, const std::string& name, const Conte
         "seams_tied",
         name + ": " + std::to_string(doubled.size()) +
             " vertices that reading doubled, where three or more faces meet, are tied together again",
-        name, "furrow doctor");
+        name, "`furrow doctor`");
   return ties;
 }
 

@@ -13,6 +13,7 @@
 #include "geometry/mesh/errors.h"
 #include "io/base/atomic_file.h"
 #include "io/base/bytes_file.h"
+#include "io/base/field_words.h"
 #include "io/base/run_program.h"
 #include "io/base/shell_word.h"
 #include "jobs/base/output_checks.h"
@@ -41,7 +42,7 @@ std::optional<Json> read_record(const std::filesystem::path& path) {
 }
 
 std::string value_behind(const std::vector<std::string>& words, const std::string& option) {
-  const auto at = std::find(words.begin(), words.end(), option);
+  const auto at = std::find(words.begin(), words.end(), io::flag_of(option));
   return at != words.end() && at + 1 != words.end() ? *(at + 1) : "";
 }
 
@@ -126,10 +127,10 @@ std::vector<CaseJob> case_jobs(const io::BatchPlan& plan, const std::filesystem:
     const CaseFiles files = case_files(plan, one);
     if (!finished_too && state_of(files.record) == CaseState::finished) continue;
     std::vector<std::string> words = one.arguments;
-    if (one.has_body && plan.command != "fit" && value_behind(words, "--cache").empty())
-      words.insert(words.end(), {"--cache", (plan.output / "cache").string()});
-    if (!files.mesh.empty()) words.insert(words.end(), {"--output", files.mesh.string()});
-    if (!files.picture.empty()) words.insert(words.end(), {"--picture", files.picture.string()});
+    if (one.has_body && plan.command != "fit" && value_behind(words, "cache").empty())
+      words.insert(words.end(), {io::flag_of("cache"), (plan.output / "cache").string()});
+    if (!files.mesh.empty()) words.insert(words.end(), {io::flag_of("output"), files.mesh.string()});
+    if (!files.picture.empty()) words.insert(words.end(), {io::flag_of("picture"), files.picture.string()});
     jobs.push_back({program, files.record, std::move(words)});
   }
   return jobs;
@@ -148,11 +149,11 @@ CaseReport run_case(const CaseJob& job) {
   const std::string name = job.record.stem().string();
   if (state_of(job.record) == CaseState::finished) return {name, CaseState::finished, false, 0, ""};
   std::vector<std::string> words = job.arguments;
-  for (const char* option : {"--output", "--picture"})
+  for (const char* option : {"output", "picture"})
     if (const std::filesystem::path file = value_behind(words, option); file.has_parent_path())
       std::filesystem::create_directories(file.parent_path());
   std::filesystem::create_directories(job.record.parent_path());
-  words.insert(words.end(), {"--json", "--quiet", "--replace"});
+  for (const char* option : {"json", "quiet", "replace"}) words.push_back(io::flag_of(option));
   const io::ProgramRun run = io::run_program(job.program, words);
   CaseReport report{name, CaseState::open, true, run.signal ? 128 + run.signal : run.exit_code,
                     last_error(run.err)};

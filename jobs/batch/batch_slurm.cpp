@@ -41,19 +41,21 @@ std::string job_name(const std::string& title) {
   return name.substr(0, 40);
 }
 
+/// Options of sbatch, each between the two.
+std::string options(const std::string& before, const std::string& after,
+                    const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += before + "--" + name + after;
+  return text;
+}
+
 std::string array_script(const io::BatchPlan& plan, const SlurmScripts& s,
                          const std::filesystem::path& program) {
   const std::string chunk = std::to_string(s.chunk);
-  return "#!/bin/sh\n"
-         "#SBATCH --job-name=" +
-         job_name("-" + plan.title) +
-         "\n"
-         "#SBATCH --array=0-" +
-         std::to_string(s.tasks - 1) +
-         "\n"
-         "#SBATCH --cpus-per-task=1\n"
-         "#SBATCH --requeue\n"
-         "#SBATCH --open-mode=append\n"
+  return "#!/bin/sh\n" +
+         options("#SBATCH ", "\n",
+                 {"job-name=" + job_name("-" + plan.title), "array=0-" + std::to_string(s.tasks - 1),
+                  "cpus-per-task=1", "requeue", "open-mode=append"}) +
          "# A task fails if one of its cases did, after all of them.\n"
          "exec " +
          io::shell_word(program.string()) + " batch task " + io::shell_word(s.todo.string()) +
@@ -98,19 +100,22 @@ SlurmScripts write_slurm_scripts(const io::BatchPlan& plan, const SlurmJob& job)
   s.tasks = (cases.size() + std::size_t(s.chunk) - 1) / std::size_t(s.chunk);
   io::write_atomically(s.todo, [&](std::ostream& out) { out << todo; });
   write_script(s.array, array_script(plan, s, job.program));
-  write_script(s.gather, "#!/bin/sh\n#SBATCH --job-name=" + job_name("-gather") +
-                             "\n#SBATCH --open-mode=append\nexec " + io::shell_word(job.program.string()) +
-                             " batch gather " + io::shell_word(job.plan.string()) + "\n");
+  write_script(s.gather,
+               "#!/bin/sh\n" +
+                   options("#SBATCH ", "\n", {"job-name=" + job_name("-gather"), "open-mode=append"}) +
+                   "exec " + io::shell_word(job.program.string()) + " batch gather " +
+                   io::shell_word(job.plan.string()) + "\n");
   const std::string logs = io::shell_word((folder / "%A_%a.log").string()),
                     log = io::shell_word((folder / "gather.log").string());
   write_script(s.submit,
                "#!/bin/sh\n# Submits the array, and what gathers after it, whatever came of it.\nset -eu\n"
-               "id=$(sbatch --parsable --output=" +
-                   logs + " " + job.options + " " + io::shell_word(s.array.string()) +
+               "id=$(sbatch " +
+                   options("", " ", {"parsable", "output=" + logs}) + job.options + " " +
+                   io::shell_word(s.array.string()) +
                    ")\nid=${id%%;*}\n"
-                   "sbatch --parsable --dependency=afterany:\"$id\" --output=" +
-                   log + " " + job.options + " " + io::shell_word(s.gather.string()) +
-                   " >/dev/null\necho \"$id\"\n");
+                   "sbatch " +
+                   options("", " ", {"parsable", "dependency=afterany:\"$id\"", "output=" + log}) +
+                   job.options + " " + io::shell_word(s.gather.string()) + " >/dev/null\necho \"$id\"\n");
   return s;
 }
 

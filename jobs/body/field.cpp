@@ -48,9 +48,9 @@ FieldErrors errors_of(const BodyCollider& body) {
 
 FieldReport field(const FieldJob& job, Listener& listener) {
   const physics::CancelScope cancelling([&listener] { return listener.cancelled(); });
-  if (job.output == "-") throw std::invalid_argument("-o: a field needs a file name");
+  if (job.output == "-") throw std::invalid_argument("`output`: a field needs a file name");
   check_folder(job.output.string());
-  check_picture(job.slice.string(), "--picture");
+  check_picture(job.slice.string(), "`picture`");
   check_replaced({job.output.string(), job.slice.string()}, {job.body.mesh.string()}, listener);
   const auto start = std::chrono::steady_clock::now();
   FieldReport report{load_body(job.body, {job.frame, listener}), {}, job.at, 0};

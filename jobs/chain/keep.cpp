@@ -33,7 +33,7 @@ namespace {
 
 void check_outputs(const KeepJob& job, const OpenScene& open, Listener& listener) {
   if (job.whole && !job.help)
-    throw std::invalid_argument("--whole is help for what lies between the lines; leave out --no-help");
+    throw std::invalid_argument("`whole` is help for what lies between the lines; leave out `no_help`");
   const io::Scene& scene = open.scene;
   const io::SceneOutput& out = scene.output;
   const bool of_file = is_scene(open.document.name);
@@ -42,7 +42,7 @@ void check_outputs(const KeepJob& job, const OpenScene& open, Listener& listener
   if (!out.state.empty() && io::ending_of(out.state) != ".ply")
     throw std::invalid_argument(out.state.string() + ": a state is a .ply file");
   if (!out.animation.empty() || !out.inserted.empty() || !out.smoothed.empty() || !out.body.empty())
-    if (!of_file) throw std::invalid_argument("keep writes --output, --save-state and --picture alone");
+    if (!of_file) throw std::invalid_argument("keep writes `output`, `save_state` and `picture` alone");
   for (const std::string& path : job.more_outputs)
     if (!path.empty()) check_folder(path);
   std::vector<std::string> inputs{job.state_path.string(), scene.garment.string()};
@@ -131,9 +131,9 @@ SceneCloth drawn_at_rest(const KeepJob& job, const io::Scene& scene, const Conte
   context.warn(
       "settled_first",
       scene.garment.string() + ": " + why + ", so it came to rest on the body " +
-          (scene.lines.empty() ? "with the lines that it has; --no-settle keeps it where it lies"
-                               : "before its lines were drawn; --no-settle draws them where it lies"),
-      scene.garment.string(), "--no-settle");
+          (scene.lines.empty() ? "with the lines that it has; `no_settle` keeps it where it lies"
+                               : "before its lines were drawn; `no_settle` draws them where it lies"),
+      scene.garment.string(), "`no_settle`");
   io::Scene there = scene;
   there.subdivide = 0;
   SilentListener silent(context.listener);  // what there is to warn of is said already
@@ -285,8 +285,8 @@ std::vector<Warning> warnings_of(const KeepReport& report, const io::Scene& scen
   for (const physics::RigidImbalance& i : report.lines.rest.imbalance)
     warnings.push_back(
         {"shape_unbalanced",
-         words(i) + (scene.body ? "; " : "; name the body that it lies on (--body), or ") +
-             "let the garment come to rest where it lies (furrow drape) before lines are drawn "
+         words(i) + (scene.body ? "; " : "; name the body that it lies on (`body`), or ") +
+             "let the garment come to rest where it lies (`furrow drape`) before lines are drawn "
              "on it, or pin it",
          scene.garment.string(), "pins"});
   if (report.crossings.pairs)
@@ -314,7 +314,7 @@ KeepReport keep_within(const KeepJob& job, Listener& listener) {
   report.record = *io::find_wrinkle_record(garment.file);
   if (report.record.lines.empty())
     throw std::invalid_argument(
-        "there is no line to keep: draw one with furrow wrinkle, or name strokes in the "
+        "there is no line to keep: draw one with `furrow wrinkle`, or name strokes in the "
         "scene's [[lines]]");
   const CrossedStart crossed = crossed_start(garment.file.mesh);
   report.lines = find_rest(job, scene, garment, report.record, context);

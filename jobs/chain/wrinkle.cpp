@@ -54,19 +54,20 @@ void check(const WrinkleJob& job, Listener& listener) {
   if (!smoothed.empty()) check_output(smoothed);
   if (job.settle && (job.keep || job.state))
     throw std::invalid_argument(job.keep
-                                    ? "--settle lets the drawn shape go, --rest keep holds it; leave out "
+                                    ? "`settle` lets the drawn shape go, `rest=keep` holds it; leave out "
                                       "one of them"
-                                    : "--settle: the garment of a state is in motion; leave out one of "
+                                    : "`settle`: the garment of a state is in motion; leave out one of "
                                       "the two");
   if (job.subdivide && (!job.settle || *job.subdivide < 0 || *job.subdivide > 4))
-    throw std::invalid_argument("--subdivide " + std::to_string(*job.subdivide) +
-                                ": refines 0 to 4 times before lines are drawn that come to rest (--settle)");
+    throw std::invalid_argument(
+        "`subdivide=" + std::to_string(*job.subdivide) +
+        "`: refines 0 to 4 times before lines are drawn that come to rest (`settle`)");
   if (!smoothed.empty() && !job.settle)
-    throw std::invalid_argument("--smoothed writes what is drawn before it comes to rest; add --settle");
+    throw std::invalid_argument("`smoothed` writes what is drawn before it comes to rest; add `settle`");
   if (!job.made_for.empty() && !job.settle)
     throw std::invalid_argument(
-        "--made-for: brings what is drawn to another body before it comes to rest there; add --settle and "
-        "--body");
+        "`made_for`: brings what is drawn to another body before it comes to rest there; add `settle` and "
+        "`body`");
   std::vector<std::string> outputs{output, inserted, smoothed};
   std::vector<std::string> inputs{path_of(job.strokes), job.state ? "" : name_of(job.garment, ""),
                                   job.state_path.string(), job.made_for.string()};
@@ -228,8 +229,8 @@ io::Scene rest_scene(const WrinkleJob& job, const Frame& frame) {
   scene.up = frame.up;
   if (!scene.body && scene.pins.empty())
     throw std::invalid_argument(
-        "--settle: the garment rests on a body or hangs from what holds it: name a body with --body, or what "
-        "is held with --pin-loop, --pin-group, --pin-box or --pin-vertices");
+        "`settle`: the garment rests on a body or hangs from what holds it: name a body with `body`, or what "
+        "is held with `pin_loop`, `pin_group`, `pin_box` or `pin_vertices`");
   check_made_for(job.made_for, scene);
   return scene;
 }
@@ -255,7 +256,7 @@ RestPlan plan_rest(const WrinkleJob& job, geometry::Mesh& garment, const Context
       plan.refinements = refinements_for_gap(garment, plan.scene.simulation.contact_gap,
                                              plan.body->field.report().tolerance);
   }
-  require_refinement(garment.number_of_faces(), 4, plan.refinements, "--subdivide", context);
+  require_refinement(garment.number_of_faces(), 4, plan.refinements, "subdivide", context);
   if (plan.refinements == 0) return plan;
   geometry::loop_subdivide(garment, plan.refinements);
   if (!job.subdivide)
@@ -264,8 +265,8 @@ RestPlan plan_rest(const WrinkleJob& job, geometry::Mesh& garment, const Context
                      (plan.refinements == 1 ? "once" : std::to_string(plan.refinements) + " times") +
                      " before its lines were drawn, as its edges are too long to keep " +
                      geometry::length_text(plan.scene.simulation.contact_gap) +
-                     " from the body; --subdivide 0 leaves it as it is",
-                 plan.scene.garment.string(), "--subdivide");
+                     " from the body; `subdivide=0` leaves it as it is",
+                 plan.scene.garment.string(), "`subdivide`");
   return plan;
 }
 

@@ -112,10 +112,10 @@ void check_chain(const io::Scene& scene, const Mesh& mesh, const Context& contex
     throw std::invalid_argument(std::string(option) + ": the garment is a chain, without faces; " + why);
   };
   if (!scene.lines.empty()) refuse("lines", "lines are drawn on cloth: leave them out");
-  if (scene.subdivide > 0) refuse("--subdivide", "give its file more vertices");
+  if (scene.subdivide > 0) refuse("`subdivide`", "give its file more vertices");
   if (scene.simulation.self.on)
-    refuse("--self-contact on", "it has no surface that could touch: leave it out");
-  if (scene.keep) refuse("--rest keep", "its rest lengths are those of its file: leave it out");
+    refuse("`self_contact=on`", "it has no surface that could touch: leave it out");
+  if (scene.keep) refuse("`rest=keep`", "its rest lengths are those of its file: leave it out");
   require_outputs(scene.output);
   if (!m.by_default && (m.density || m.stretch || !m.preset.empty()))
     context.warn("chain_settings",
@@ -128,7 +128,7 @@ void check_chain(const io::Scene& scene, const Mesh& mesh, const Context& contex
 void refuse_chain(const Mesh& mesh, const std::string& name) {
   if (geometry::is_chain(mesh))
     throw geometry::ContentError(name +
-                                 ": a chain, which furrow simulate moves; here a mesh with faces is "
+                                 ": a chain, which `furrow simulate` moves; here a mesh with faces is "
                                  "needed");
 }
 

@@ -177,10 +177,10 @@ double energy_of(const Cloth& cloth) {
 
 void check_disc(const DiscJob& job) {
   if (job.rings < 10 || job.rings > 100 || job.rings % 5)
-    throw std::invalid_argument("--rings: " + std::to_string(job.rings) +
+    throw std::invalid_argument("`rings`: " + std::to_string(job.rings) +
                                 " does not fit; take a multiple of 5 from 10 to 100");
   if (!(job.bending_friction >= 0 && std::isfinite(job.bending_friction)))
-    throw std::invalid_argument("--bending-friction takes a number >= 0");
+    throw std::invalid_argument("`bending_friction` takes a number >= 0");
   if (job.folds.empty()) throw std::invalid_argument("drape_disc: no start");
   if (!job.material.density) throw std::invalid_argument("drape_disc: the material has no density");
 }
@@ -279,7 +279,7 @@ RigidityFit fit_rigidity(const DiscJob& job, double measured, Listener& listener
   double low = 1. / 32, high = 32;
   const double least = at(low), most = at(high);
   if (!(least <= measured && measured <= most))
-    throw std::invalid_argument("--drape: no rigidity drapes so: a thirty-second of this cloth's gives " +
+    throw std::invalid_argument("`drape`: no rigidity drapes so: a thirty-second of this cloth's gives " +
                                 std::to_string(least) + ", 32 times it " + std::to_string(most));
   while (high / low > 1.02) {
     const double middle = std::sqrt(low * high);

@@ -20,7 +20,7 @@ constexpr double out_of_balance = 1e-6;
 constexpr double largest_turn = 0.2;  // [rad]
 
 void warn_of(const bridge::KeptShape& shape, bool moving, const Context& context) {
-  const char* hint = "furrow keep finds out which lines hold and helps them";
+  const char* hint = "`furrow keep` finds out which lines hold and helps them";
   const bool swings = !shape.rest.imbalance.empty();
   if (shape.rest.residual > out_of_balance && !(moving && swings))
     context.warn(swings ? "shape_unbalanced" : "shape_out_of_bounds",
@@ -28,11 +28,11 @@ void warn_of(const bridge::KeptShape& shape, bool moving, const Context& context
                                           words(shape.rest.imbalance.front()) + "), it will swing or fall; "
                                     : "the bounds on strain and angle leave no balance of the shape; ") +
                      hint,
-                 "", "furrow keep");
+                 "", "`furrow keep`");
   else if (!shape.certificate.stable())
     context.warn("shape_unstable",
                  std::string("the shape is balanced, but not stable: it will give way; ") + hint, "",
-                 "furrow keep");
+                 "`furrow keep`");
 }
 
 }  // namespace

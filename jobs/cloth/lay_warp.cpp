@@ -74,8 +74,8 @@ WarpCount warp_by(const std::string& source, io::MeshFile& file, const Context& 
   const WarpCount count = geometry::count_warp(mesh);
   if (count.known == 0)
     throw geometry::ContentError(
-        "has no directions of the warp (face properties warp_x, warp_y, warp_z of a PLY) for --warp file; "
-        "take --warp texture, an axis or a stroke file");
+        "has no directions of the warp (face properties warp_x, warp_y, warp_z of a PLY) for `warp=file`; "
+        "take `warp=texture`, an axis or a stroke file");
   return count;
 }
 
@@ -91,7 +91,7 @@ void warn_of_source(const std::string& source, bool assumed, const WarpCount& gi
   if (assumed && source != "file")
     context.warn("warp_assumed",
                  garment + ": nothing says where its threads run; the warp runs " + words_of(source) +
-                     " (--warp says otherwise)",
+                     " (`warp` says otherwise)",
                  garment, "material.warp");
   if (given.skewed * 20 > given.faces)
     context.warn("warp_skewed",
@@ -111,7 +111,7 @@ void lay_warp(io::MeshFile& file, const std::string& said, bool woven, const std
   const std::string source = said == "auto" ? (usual == "y" && up_is_z ? "z" : usual) : said;
   if (!woven)
     context.warn("warp_unused",
-                 "--warp: this cloth is the same in all directions; name a fabric with threads "
+                 "`warp`: this cloth is the same in all directions; name a fabric with threads "
                  "(furrow fabric list)",
                  garment, "material.preset");
   const WarpCount given = naming(garment, [&] { return warp_by(source, file, context); });
@@ -120,14 +120,14 @@ void lay_warp(io::MeshFile& file, const std::string& said, bool woven, const std
   if (given.known < given.faces && !is_stroke_file(source))
     context.warn("warp_spread",
                  garment + ": " + std::to_string(given.faces - given.known) + " of " +
-                     std::to_string(given.faces) + " faces have no warp by --warp " + source +
-                     "; they take it from their neighbours",
+                     std::to_string(given.faces) + " faces have no warp by `warp=" + source +
+                     "`; they take it from their neighbours",
                  garment, "material.warp");
   if (all.known == all.faces) return;
   throw geometry::ContentError(
       garment + ": " + std::to_string(all.faces - all.known) + " of " + std::to_string(all.faces) +
       " faces have no direction of the warp, nor a neighbour that has; draw one on each "
-      "part (--warp strokes.json), or take an axis");
+      "part (`warp=strokes.json`), or take an axis");
 }
 
 }  // namespace furrow::jobs

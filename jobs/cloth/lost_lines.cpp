@@ -43,9 +43,9 @@ std::vector<Warning> lost_lines(const io::Scene& scene, const std::vector<LineRe
                 : fmt::format("{} of {} lines lost more than half of their height: ", lost, lines.size())) +
                told + "; " +
                (keeps_first_shape(scene)
-                    ? "furrow keep finds out which lines hold, and helps those that do not"
-                    : "furrow keep makes the drawn shape the rest and helps lines that do not hold"),
-           first, "furrow keep"}};
+                    ? "`furrow keep` finds out which lines hold, and helps those that do not"
+                    : "`furrow keep` makes the drawn shape the rest and helps lines that do not hold"),
+           first, "`furrow keep`"}};
 }
 
 }  // namespace furrow::jobs

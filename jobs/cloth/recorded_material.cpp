@@ -3,8 +3,9 @@
 
 #include "geometry/mesh/errors.h"
 #include "io/mesh/mesh_file.h"
-#include "io/scene/equivalent_flags.h"
 #include "io/scene/fabrics.h"
+#include "io/scene/scene.h"
+#include "io/scene/settings_schema.h"
 #include "io/scene/settings_table.h"
 
 namespace furrow::jobs {
@@ -24,10 +25,16 @@ bool same_cloth(const Json& a, const Json& b) {
   return true;
 }
 
-/// "--fabric cotton --friction 0.4"
-std::string flags_of(const Json& material) {
-  const std::string command = io::equivalent_flags(Json{{"material", material}}, "", {});
-  return command.substr(std::string("simulate ").size());
+/// "`fabric=cotton` `friction=0.4`"
+std::string fields_of(const Json& material) {
+  std::string text;
+  for (const auto& [key, value] : material.items()) {
+    const io::Setting* setting = io::find_setting("material." + key);
+    const std::string name = setting && !setting->keyword.empty() ? setting->keyword : "material." + key;
+    text += (text.empty() ? "`" : " `") + name + "=" +
+            (value.is_string() ? value.get<std::string>() : io::value_text(value)) + "`";
+  }
+  return text;
 }
 
 }  // namespace
@@ -51,7 +58,7 @@ bool take_default_moving_cloth(io::TomlDocument& document, const std::string& wh
 }
 
 std::string words_of_other_cloth(const std::filesystem::path& garment, const io::Json& other_cloth) {
-  return garment.string() + ": came to rest with " + flags_of(other_cloth) + ", and is other cloth now";
+  return garment.string() + ": came to rest with " + fields_of(other_cloth) + ", and is other cloth now";
 }
 
 std::filesystem::path garment_of(const io::TomlDocument& document, const std::filesystem::path& folder) {

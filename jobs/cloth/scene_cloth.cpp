@@ -76,7 +76,7 @@ io::MeshFile begin_garment(const io::Scene& scene, const Context& context, Chain
   if (geometry::is_chain(file.mesh)) return file;
   heed(faults_of_mesh(file), scene.garment.string(), context);
   heed(faults_of_garment(file.mesh), scene.garment.string(), context);
-  require_refinement(file.mesh->number_of_faces(), 4, scene.subdivide, "--subdivide", context);
+  require_refinement(file.mesh->number_of_faces(), 4, scene.subdivide, "subdivide", context);
   if (scene.material.warp != "auto" || scene.material.is_woven())
     lay_warp(file, scene.material.warp, scene.material.is_woven(), scene.garment.string(), context);
   subdivide_tied(file, scene, context);
@@ -101,7 +101,7 @@ void warn_of_start(const io::Scene& scene, const WorldBody& body, const geometry
             std::to_string(garment.number_of_vertices()) + " vertices start inside the body, up to " +
             geometry::length_text(inside.deepest) +
             " deep, and are driven out; what comes of it is no motion of cloth: move the garment out "
-            "of the body first, or look at --unit",
+            "of the body first, or look at `unit`",
         scene.garment.string(), "unit");
 }
 

@@ -11,6 +11,7 @@
 #include "geometry/mesh/measures.h"
 #include "geometry/mesh/property_names.h"
 #include "io/base/bytes_file.h"
+#include "io/base/field_words.h"
 #include "io/scene/state_file.h"
 #include "io/stroke/resolve_strokes.h"
 #include "io/stroke/stroke_file.h"
@@ -29,31 +30,34 @@ const char* word_of(geometry::RestRule rule) {
   return rule == geometry::RestRule::flat ? "flat" : rule == geometry::RestRule::copied ? "copied" : "drawn";
 }
 
-std::string fold_flags(const geometry::WrinkleOptions& o) {
-  using geometry::Detail;
-  return std::string("--rule fold --rest ") + word_of(o.rest) + " --detail " +
-         (o.detail == Detail::coarse ? "coarse"
-          : o.detail == Detail::fine ? "fine"
-                                     : "normal") +
-         (o.flat_base ? " --flat-base" : "") + " --max-distance " + number(o.insertion.max_distance) +
-         " --density " + number(o.density) + " --fold-iterations " + std::to_string(o.fold_iterations) +
-         " --lambda " + number(o.smoothing.lambda) + " --mu " + number(o.smoothing.mu);
-}
-
-/// The flags of `wrinkle` that say the same, for the record in the file.
+/// The options of `wrinkle` that say the same, for the record in the file.
 std::string flags(const geometry::WrinkleOptions& o) {
   using namespace geometry;
-  const InsertionRule rule = o.insertion.rule;
-  if (rule == InsertionRule::fold) return fold_flags(o);
-  return std::string("--rule ") + (rule == InsertionRule::paper ? "paper" : "safe") + " --rest " +
-         word_of(o.rest) + " --region " +
-         (o.region == SmoothingRegion::whole_mesh ? "whole-mesh" : "two-ring") + " --max-distance " +
-         number(o.insertion.max_distance) + " --density " + number(o.density) + " --iterations " +
-         std::to_string(o.smoothing.iterations) + " --lambda " + number(o.smoothing.lambda) + " --mu " +
-         number(o.smoothing.mu) + " --weights " +
-         (o.smoothing.weights == SmoothingWeights::cotangent ? "cotangent" : "uniform") +
-         (o.smoothing.lines == LineRule::keep ? " --keep-lines" : "") +
-         (o.smoothing.border == BorderRule::keep ? " --keep-border" : "");
+  const bool folds = o.insertion.rule == InsertionRule::fold;
+  std::string text;
+  const auto add = [&](const char* field, const std::string& value = "") {
+    text += (text.empty() ? "" : " ") + io::flag_of(field, value);
+  };
+  add("rule", folds ? "fold" : o.insertion.rule == InsertionRule::paper ? "paper" : "safe");
+  add("rest", word_of(o.rest));
+  if (folds)
+    add("detail", o.detail == Detail::coarse ? "coarse" : o.detail == Detail::fine ? "fine" : "normal");
+  else
+    add("region", o.region == SmoothingRegion::whole_mesh ? "whole-mesh" : "two-ring");
+  if (folds && o.flat_base) add("flat_base");
+  add("max_distance", number(o.insertion.max_distance));
+  add("density", number(o.density));
+  if (folds)
+    add("fold_iterations", std::to_string(o.fold_iterations));
+  else
+    add("iterations", std::to_string(o.smoothing.iterations));
+  add("lambda", number(o.smoothing.lambda));
+  add("mu", number(o.smoothing.mu));
+  if (folds) return text;
+  add("weights", o.smoothing.weights == SmoothingWeights::cotangent ? "cotangent" : "uniform");
+  if (o.smoothing.lines == LineRule::keep) add("keep_lines");
+  if (o.smoothing.border == BorderRule::keep) add("keep_border");
+  return text;
 }
 
 geometry::WrinkleOptions continued(geometry::WrinkleOptions o, const geometry::Mesh& mesh,
@@ -221,7 +225,7 @@ LineRound draw_lines(const LineTarget& target, const std::vector<io::DrawnStroke
 void leave_out(std::vector<io::DrawnStroke>& strokes, const std::vector<std::string>& names) {
   for (const std::string& name : names)
     strokes.erase(strokes.begin() + static_cast<std::ptrdiff_t>(io::find_stroke(strokes, name)));
-  if (strokes.empty()) throw std::invalid_argument("--without leaves no stroke to draw");
+  if (strokes.empty()) throw std::invalid_argument("`without` leaves no stroke to draw");
 }
 
 std::vector<io::DrawnStroke> read_strokes(const io::SceneLines& lines, const Context& context) {

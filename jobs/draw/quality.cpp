@@ -9,6 +9,7 @@
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/stroke/prepare_strokes.h"
+#include "io/base/field_words.h"
 #include "io/stroke/resolve_strokes.h"
 #include "io/stroke/stroke_file.h"
 #include "jobs/base/output_checks.h"
@@ -42,9 +43,9 @@ void check(const QualityJob& job) {
   if (job.strokes)
     if (const auto* path = std::get_if<fs::path>(&*job.strokes)) inputs.push_back(path->string());
   refuse_same(job.more_outputs, inputs);
-  if (job.width && !(*job.width > 0)) throw std::invalid_argument("--width must be > 0 m");
+  if (job.width && !(*job.width > 0)) throw std::invalid_argument("`width` must be > 0 m");
   if (job.max_distance && !(*job.max_distance > 0))
-    throw std::invalid_argument("--max-distance must be > 0 m");
+    throw std::invalid_argument("`max_distance` must be > 0 m");
 }
 
 /// The cloth before its folds, and what is known of its lines.
@@ -123,7 +124,7 @@ std::vector<FoldCurve> curves_of_strokes(const QualityJob& job, const io::Wrinkl
     for (io::DrawnStroke& d : drawn)
       if (!d.stroke.width) d.stroke.width = job.width;
   const double reach = job.max_distance.value_or(
-      noted(record.options, "--max-distance").value_or(geometry::TraceOptions{}.max_distance));
+      noted(record.options, io::flag_of("max_distance")).value_or(geometry::TraceOptions{}.max_distance));
   const std::vector<geometry::Stroke> strokes =
       io::resolve_strokes(drawn, *before.file, reach).strokes;  // what it warns of, wrinkle tells
   const double edge = before.from == "rest_positions" && record.mean_structural_length > 0
@@ -200,20 +201,20 @@ bool has_moved(const FoldSurface& surface, const std::vector<FoldCurve>& curves)
 std::string measure_lines(const QualityJob& job, const Before& before, QualityReport& report,
                           const Context& context) {
   const io::WrinkleRecord record = io::find_wrinkle_record(report.mesh).value_or(io::WrinkleRecord{});
-  if (!before.file) return "the surface before the folds is not known: name it with --base";
+  if (!before.file) return "the surface before the folds is not known: name it with `base`";
   const FoldSurface surface =
       before.from == "rest_positions"
           ? geometry::surface_over(report.mesh.mesh,
                                    std::vector<geometry::Point>(before.file->mesh->points().begin(),
                                                                 before.file->mesh->points().end()))
           : geometry::surface_over(report.mesh.mesh, before.file->mesh,
-                                   record.options.find("--flat-base") != std::string::npos);
+                                   record.options.find(io::flag_of("flat_base")) != std::string::npos);
   stop_if_cancelled(context);
   const Lines lines = find_lines(job, record, before, surface, context);
   report.lines_from = lines.from;
-  if (lines.curves.empty()) return "the mesh carries no lines: name their strokes with --strokes";
+  if (lines.curves.empty()) return "the mesh carries no lines: name their strokes with `strokes`";
   if (before.is_found && has_moved(surface, lines.curves))
-    return "the cloth has moved since its lines were drawn: name it as it would lie without them with --base";
+    return "the cloth has moved since its lines were drawn: name it as it would lie without them with `base`";
   const ProgressScope progress(context.listener, "sections");
   for (const FoldCurve& curve : lines.curves) {
     stop_if_cancelled(context);
@@ -269,7 +270,7 @@ QualityReport quality(const QualityJob& job, Listener& listener) {
   const std::string why = measure_lines(job, before, report, context);
   find_knobs(report);
   const auto record = io::find_wrinkle_record(report.mesh);
-  const bool is_fine = record && record->options.find("--detail fine") != std::string::npos;
+  const bool is_fine = record && record->options.find(io::flag_of("detail", "fine")) != std::string::npos;
   report.measures = judged(report, why, is_fine);
   return report;
 }

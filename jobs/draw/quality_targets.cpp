@@ -45,7 +45,7 @@ QualityMeasure open_without_base(QualityMeasure m, const QualityReport& report) 
   if (report.before || m.met()) return m;
   m.at_most.reset();
   m.at_least.reset();
-  m.why = "no verdict without the garment before its folds, --base";
+  m.why = "no verdict without the garment before its folds, `base`";
   return m;
 }
 

@@ -18,7 +18,7 @@ fs::path find_garment(const io::WrinkleRecord& record, const fs::path& wrinkled)
   throw geometry::ContentError(
       wrinkled.string() + ": the garment '" + record.garment +
       "' that its lines were drawn on is not there, or has changed; lay it beside this "
-      "file, or write the strokes with furrow strokes and draw them on another");
+      "file, or write the strokes with `furrow strokes` and draw them on another");
 }
 
 }  // namespace

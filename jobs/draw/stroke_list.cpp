@@ -42,7 +42,8 @@ std::vector<io::DrawnStroke> read_stroke_list(const std::filesystem::path& path,
     return io::read_drawn_strokes(path, geometry::Stroke{}.height, read_options(context.frame));
   const auto record = io::find_wrinkle_record(read_mesh(path, context));
   if (!record || record->strokes.empty())
-    throw geometry::ContentError(path.string() + ": holds no strokes; furrow wrinkle writes them into a PLY");
+    throw geometry::ContentError(path.string() +
+                                 ": holds no strokes; `furrow wrinkle` writes them into a PLY");
   return io::drawn_strokes_from(record->strokes, path.string());
 }
 

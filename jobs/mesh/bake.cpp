@@ -27,7 +27,7 @@ constexpr double moved = 1e-4;  // from the low surface: such faces are reported
 
 void check(const BakeJob& job, Listener& listener) {
   const std::string applied = job.applied.string();
-  if (!applied.empty() && !job.check) throw std::invalid_argument("--applied goes with --check");
+  if (!applied.empty() && !job.check) throw std::invalid_argument("`applied` goes with `check`");
   if (job.check)
     physics::require("bake", "check", *job.check, *job.check >= 0 && *job.check <= 6, "in [0, 6]");
   if (job.prefix.empty()) {
@@ -58,14 +58,14 @@ void check_maps(const geometry::BakedMaps& maps, const Mesh& low, const BakeJob&
   if (maps.covered == 0)
     throw geometry::ContentError(name +
                                  ": its texture coordinates have no area, no texel lies in a face; "
-                                 "unwrap it, or raise --texels");
+                                 "unwrap it, or raise `texels`");
   const geometry::MeshInfo info = geometry::measure(low);
   const double diagonal = std::sqrt(CGAL::squared_distance(info.box_min, info.box_max));
   if (maps.largest > diagonal / 2)
     throw geometry::ContentError(name_of(job.high, "the high mesh") + ": lies " +
                                  std::to_string(maps.largest) + " m from " + name +
-                                 ", more than half of its diagonal; maps need both in one unit (--unit) and "
-                                 "one pose (furrow transfer)");
+                                 ", more than half of its diagonal; maps need both in one unit (`unit`) and "
+                                 "one pose (`furrow transfer`)");
 }
 
 std::vector<Face> faces_away_from(const Mesh& mesh, const Mesh& low) {

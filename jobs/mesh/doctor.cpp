@@ -20,13 +20,13 @@ namespace {
 constexpr std::size_t small_hole = 8;  // edges of one that is closed in a garment
 
 void check(const DoctorJob& job, Listener& listener) {
-  if (job.body && job.is_body) throw std::invalid_argument("--body: the mesh is examined as a body itself");
+  if (job.body && job.is_body) throw std::invalid_argument("`body`: the mesh is examined as a body itself");
   if (job.body_unit && !is_unit(*job.body_unit))
-    throw std::invalid_argument("--body-unit: '" + *job.body_unit + "' is not m, cm, mm or inch");
+    throw std::invalid_argument("`body_unit`: '" + *job.body_unit + "' is not m, cm, mm or inch");
   const std::string output = job.output.string();
   if (!output.empty()) check_output(output);
   if (!output.empty() && !job.repair)
-    throw std::invalid_argument("-o writes the mended mesh; say --repair, too");
+    throw std::invalid_argument("`output` writes the mended mesh; say `repair`, too");
   std::vector<std::string> outputs{output};
   outputs.insert(outputs.end(), job.more_outputs.begin(), job.more_outputs.end());
   check_replaced(outputs, {name_of(job.mesh, ""), job.body ? name_of(*job.body, "") : ""}, listener);
@@ -47,7 +47,7 @@ void add_odd_size(const geometry::Mesh& mesh, const std::string& what, const Fra
                   std::vector<Ailment>& found) {
   const std::string odd = odd_size(mesh, what, frame);
   if (odd.empty()) return;
-  Ailment a{"size", odd, "--unit"};
+  Ailment a{"size", odd, "`unit`"};
   a.fatal = true;
   found.push_back(std::move(a));
 }
@@ -62,7 +62,7 @@ std::vector<Ailment> examine_body(const io::MeshFile& file, const Frame& frame) 
   const geometry::BodyReport report = geometry::repair_body(file.mesh).report;
   if (report.filled_holes == 0) return found;
   Ailment open{"open", "the body has " + std::to_string(report.filled_holes) + " holes, which become caps",
-               "furrow doctor --repair closes them"};
+               "`furrow doctor repair` closes them"};
   open.count = report.filled_holes;
   open.mendable = true;
   found.push_back(std::move(open));

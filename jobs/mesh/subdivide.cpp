@@ -67,9 +67,9 @@ void refine(const SubdivideJob& job, SubdivideReport& result, SeamTies& ties, co
   geometry::Mesh& mesh = result.mesh.mesh;
   if (job.refinement == Refinement::loop || job.refinement == Refinement::linear)
     require_refinement(mesh.number_of_faces(), 4, job.steps,
-                       job.refinement == Refinement::loop ? "--subdivide" : "--linear", context);
+                       job.refinement == Refinement::loop ? "subdivide" : "linear", context);
   if (job.refinement == Refinement::sqrt3)
-    require_refinement(mesh.number_of_faces(), 3, job.steps, "--sqrt3", context);
+    require_refinement(mesh.number_of_faces(), 3, job.steps, "sqrt3", context);
   switch (job.refinement) {
     case Refinement::strokes:
       return insert_strokes(job, result, context);

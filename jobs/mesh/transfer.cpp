@@ -50,8 +50,8 @@ BodyEnd end_on(const MeshInput& input, const geometry::Mesh& garment, const Cont
     context.warn("body_comes_through",
                  words_of_piercing(end) +
                      ": its faces are larger than those that were worn; refine the original first (furrow "
-                     "subdivide), or let what is worn keep farther off (--gap)",
-                 name, "furrow subdivide");
+                     "subdivide), or let what is worn keep farther off (`gap`)",
+                 name, "`furrow subdivide`");
   return end;
 }
 

@@ -142,21 +142,21 @@ physics::SimulateOptions options_of(const Candidate& c, const SceneCloth& scene,
 }
 
 std::string flags_of(const Candidate& c, bool scene_dt) {
-  std::string flags = std::string("--integrator ") + name_of(c.integrator);
+  std::string flags = std::string("`integrator=") + name_of(c.integrator) + "`";
   const bool needs_dt = c.dt || scene_dt;
-  if (needs_dt) flags += " --dt " + text_of(c.dt.value_or(rounded_down_step(c.expected_dt)));
-  if (c.integrator == Integrator::xpbd) flags += " --sweeps " + std::to_string(c.iterations);
-  return flags + (c.forced ? " --force-dt" : "");
+  if (needs_dt) flags += " `dt=" + text_of(c.dt.value_or(rounded_down_step(c.expected_dt))) + "`";
+  if (c.integrator == Integrator::xpbd) flags += " `sweeps=" + std::to_string(c.iterations) + "`";
+  return flags + (c.forced ? " `force_dt`" : "");
 }
 
 void set_candidate(io::TomlDocument& document, const Candidate& c) {
-  io::set_value(document, "simulation.integrator", name_of(c.integrator), "--accuracy");
+  io::set_value(document, "simulation.integrator", name_of(c.integrator), "`accuracy`");
   document.root["simulation"].erase("dt");
   document.root["simulation"].erase("force_dt");
-  if (c.dt) io::set_value(document, "simulation.dt", *c.dt, "--accuracy");
-  if (c.forced) io::set_value(document, "simulation.force_dt", true, "--accuracy");
+  if (c.dt) io::set_value(document, "simulation.dt", *c.dt, "`accuracy`");
+  if (c.forced) io::set_value(document, "simulation.force_dt", true, "`accuracy`");
   if (c.integrator == Integrator::xpbd)
-    io::set_value(document, "simulation.sweeps", c.iterations, "--accuracy");
+    io::set_value(document, "simulation.sweeps", c.iterations, "`accuracy`");
 }
 
 double predicted_cost(const Candidate& c, const SceneCloth& scene, double seconds) {

@@ -18,7 +18,7 @@ Candidate reference_candidate(const SceneCloth& scene, double dt_limit);
 /// The scene's options with the candidate's, to run for `seconds`.
 physics::SimulateOptions options_of(const Candidate& candidate, const SceneCloth& scene, double seconds);
 
-/// "--integrator leapfrog --dt 0.0001": what makes `furrow simulate SCENE` run so. `scene_dt`: the scene
+/// "`integrator=leapfrog` `dt=0.0001`": what makes `furrow simulate SCENE` run so. `scene_dt`: the scene
 /// names a step, so that one must be named in its place.
 std::string flags_of(const Candidate& candidate, bool scene_dt);
 /// The same as settings of a document.

@@ -42,8 +42,8 @@ OpenScene open_scene(const ChartJob& job) {
     throw std::invalid_argument(
         open.document.name +
         ": simulation.settle: a chart judges motion from the cloth as it lies; bring the "
-        "garment to rest before (furrow drape) and chart that, or say --set "
-        "simulation.settle=false");
+        "garment to rest before (`furrow drape`) and chart that, or say "
+        "`simulation.settle=false`");
   check_inputs(open.scene, open.document, -1, job.scene.memory);
   spare_inputs(open.scene, job);
   take_noted_frame(open.scene, open.document, job.scene.memory);

@@ -143,13 +143,13 @@ void write_chart_csv(const std::string& path, const Judgement& j) {
 
 void check_chart_picture(const std::string& path) {
   if (io::ending_of(path) != ".svg" && io::ending_of(path) != ".png")
-    throw std::invalid_argument("--output: " + path +
+    throw std::invalid_argument("`output`: " + path +
                                 ": charts are drawn as SVG or PNG; let the name end in .svg or .png");
   check_folder(path);
   if (std::system("command -v gnuplot >/dev/null 2>&1") != 0)
     throw std::runtime_error(path +
                              ": gnuplot, which draws charts, is not installed; install it (Debian's "
-                             "gnuplot-nox), or ask for the numbers alone with --csv");
+                             "gnuplot-nox), or ask for the numbers alone with `csv`");
 }
 
 void draw_chart(const std::string& path, const Judgement& j, const std::string& title) {
@@ -162,7 +162,7 @@ void draw_chart(const std::string& path, const Judgement& j, const std::string& 
     for (std::size_t n; gnuplot && (n = std::fread(part.data(), 1, part.size(), gnuplot)) > 0;)
       drawn.append(part.data(), n);
     if (!gnuplot || pclose(gnuplot) != 0 || drawn.empty())
-      throw std::runtime_error(path + ": gnuplot could not draw it; --csv has the numbers");
+      throw std::runtime_error(path + ": gnuplot could not draw it; `csv` has the numbers");
     if (io::ending_of(path) == ".svg")
       out << drawn << "<!-- " << io::own_mark << " -->\n";
     else

@@ -90,11 +90,11 @@ class Judge {
     rate_ += j_.candidates[0].cost;  // the twin
     j_.seconds = scene_.seconds;
     if (!(j_.seconds > 0))
-      throw std::invalid_argument("the scene has no time to judge; give it --set simulation.seconds=1");
+      throw std::invalid_argument("the scene has no time to judge; give it `simulation.seconds=1`");
     if (rate_ * j_.seconds <= j_.options.budget) return;
     const double fits = j_.options.budget / rate_;
     if (fits < shortest)
-      throw std::invalid_argument("--budget " + Json(j_.options.budget).dump() + ": judges only " +
+      throw std::invalid_argument("`budget=" + Json(j_.options.budget).dump() + "`: judges only " +
                                   Json(fits).dump() + " s of this scene; raise it to " +
                                   Json(std::floor(rate_ * shortest) + 1).dump() + " or more");
     j_.seconds = rounded_down(fits);
@@ -217,9 +217,9 @@ class Judge {
 
 void check(const JudgeOptions& o) {
   if (!(o.tolerance > 0 && o.tolerance < 1))
-    throw std::invalid_argument("--accuracy: " + std::to_string(o.tolerance) + " is not between 0 and 1");
+    throw std::invalid_argument("`accuracy`: " + std::to_string(o.tolerance) + " is not between 0 and 1");
   if (!(o.budget > 0) || !std::isfinite(o.budget))
-    throw std::invalid_argument("--budget: " + std::to_string(o.budget) + " is no number above 0 [s]");
+    throw std::invalid_argument("`budget`: " + std::to_string(o.budget) + " is no number above 0 [s]");
 }
 
 Judgement judge(const SceneCloth& scene, const physics::World& world, const JudgeOptions& options,

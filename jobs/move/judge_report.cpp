@@ -36,14 +36,14 @@ Json row_of(const Judgement& j, const JudgedCandidate& c, bool scene_dt) {
 std::string judged_on(const Judgement& j) {
   if (j.seconds >= j.scene_seconds) return "";
   return "; judged on the first " + three_digits(j.seconds) + " s of " + three_digits(j.scene_seconds) +
-         " s, " + (j.shortened ? "as much as fits the budget; --budget takes more" : "until lines are drawn");
+         " s, " + (j.shortened ? "as much as fits the budget; `budget` takes more" : "until lines are drawn");
 }
 
 std::string broken_words(const Judgement& j) {
   return j.broken == Broken::interrupted
              ? "interrupted; only what was done so far is shown"
              : "broken off, this machine takes more than three times the budget and a minute; "
-               "lower --budget, or run fewer programs beside";
+               "lower `budget`, or run fewer programs beside";
 }
 
 }  // namespace
@@ -89,7 +89,7 @@ std::string words(const Judgement& j, bool scene_dt) {
     const double best = j.candidates.back().error;
     return "nothing that was tried is within " + percent(j.options.tolerance) +
            " of the garment's size, the reference itself is known to " + percent(best) +
-           "; choose a larger --accuracy" + judged_on(j);
+           "; choose a larger `accuracy`" + judged_on(j);
   }
   const JudgedCandidate& c = j.candidates[static_cast<std::size_t>(j.chosen)];
   const bool is_reference = &c == &j.candidates.back();

@@ -24,7 +24,7 @@ constexpr double most_open = 0.1;    // of all steps, with which a motion is sti
 Warning pierced_between_vertices(const io::Scene& scene, const BodyEnd& body) {
   return {"body_comes_through",
           scene.garment.stem().string() + ": " + words_of_piercing(body) +
-              "; refine the garment where it is made (furrow subdivide), or keep it farther off (--gap)",
+              "; refine the garment where it is made (`furrow subdivide`), or keep it farther off (`gap`)",
           scene.garment.string(), "material.gap"};
 }
 
@@ -36,7 +36,7 @@ bool is_unsolved(const physics::SimulateReport& report) {
 Warning told_open_steps(const physics::SimulateReport& report) {
   return {"steps_open",
           fmt::format("{} of {} steps {} not solved, even in 32 parts: look at the result where cloth lies "
-                      "between parts of the body; take a shorter --dt, or --integrator leapfrog",
+                      "between parts of the body; take a shorter `dt`, or `integrator=leapfrog`",
                       report.open_steps, report.steps, report.open_steps == 1 ? "was" : "were"),
           "", "simulation.dt"};
 }
@@ -51,13 +51,13 @@ std::optional<Warning> stretched_on_the_way(const io::Scene& scene, const physic
       fmt::format("an edge was strained by {:.0f} % at {:.2f} s, near {}, and is not any more; look at "
                   "an animation there, and {}",
                   100 * longest.strain, longest.time, place(longest.at),
-                  implicit ? "take a shorter --dt" : "let pins and body start slower"),
+                  implicit ? "take a shorter `dt`" : "let pins and body start slower"),
       "", implicit ? "simulation.dt" : ""};
 }
 
 std::string help_of_divergence(const io::Scene& scene, const physics::SimulateReport& report) {
-  if (scene.simulation.dt) return "leave out --dt";
-  const std::string shorter = fmt::format("take shorter steps: --dt {:.1g}", report.dt / 3);
+  if (scene.simulation.dt) return "leave out `dt`";
+  const std::string shorter = fmt::format("take shorter steps: `dt={:.1g}`", report.dt / 3);
   return scene.body ? "look for pins or cloth that start deep inside the body, or " + shorter : shorter;
 }
 
@@ -82,7 +82,7 @@ std::vector<Warning> oddities_of(const io::Scene& scene, const physics::Simulate
       report.outcome != physics::Outcome::diverged && report.dt > report.dt_limit_smallest)
     found.push_back({"step_above_limit",
                      fmt::format("steps of {:.3g} s are above the limit of {:.3g} s, beyond which numbers "
-                                 "grow and no motion is to be trusted; leave out --force-dt",
+                                 "grow and no motion is to be trusted; leave out `force_dt`",
                                  report.dt, report.dt_limit_smallest),
                      "", "simulation.force_dt"});
   if (report.open_steps > 0 && !is_unsolved(report)) found.push_back(told_open_steps(report));
@@ -97,7 +97,7 @@ std::vector<Warning> oddities_of(const io::Scene& scene, const physics::Simulate
   const physics::SimulateOptions& o = scene.simulation;
   if (physics::solves_contact(o.integrator) && o.spring_damping != physics::SimulateOptions().spring_damping)
     found.push_back({"damping_unused",
-                     "implicit and tr-bdf2 have no damping of springs; drag damps (--drag), or take leapfrog",
+                     "implicit and tr-bdf2 have no damping of springs; drag damps (`drag`), or take leapfrog",
                      "", "material.damping"});
   if (!scene.wind.gusts.empty() && scene.wind.velocity.isZero())
     found.push_back({"gusts_without_wind", "gusts do nothing without wind", "forces.gusts", "forces.wind"});
@@ -114,7 +114,7 @@ std::vector<Fault> faults_of(const io::Scene& scene, const ReachedShape& shape,
          {"torn",
           fmt::format("the cloth is torn: a hundredth of its edges is strained by {:.0f} % and more, most at "
                       "{}; look for a body that is too large or moves too fast, pins that do not go with it, "
-                      "lines that are far too high, and with xpbd at --sweeps and --dt",
+                      "lines that are far too high, and with xpbd at `sweeps` and `dt`",
                       100 * strain.p99, place(shape.strained_most)),
           garment, "body.mesh"}});
   if (shape.contact && shape.contact->inside.deepest > shape.contact->tolerance)
@@ -123,8 +123,8 @@ std::vector<Fault> faults_of(const io::Scene& scene, const ReachedShape& shape,
          {"inside_body",
           fmt::format(
               "{} vertices end inside the body, up to {} deep at {}; the garment is too small for the "
-              "body, started inside it, or the body moves too fast: furrow drape finds out whether it "
-              "can be worn, and --unit and --up say how the files are meant",
+              "body, started inside it, or the body moves too fast: `furrow drape` finds out whether it "
+              "can be worn, and `unit` and `up` say how the files are meant",
               shape.contact->inside.inside, geometry::length_text(shape.contact->inside.deepest),
               place(shape.contact->deepest_at)),
           garment, "unit"}});
@@ -137,9 +137,9 @@ std::vector<Fault> faults_of(const io::Scene& scene, const ReachedShape& shape,
           words(shape.crossings) +
               (scene.simulation.self.on
                    ? "; they were there at the start: draw or drape it without, or accept them with "
-                   : "; cloth has no contact with cloth here: --self-contact on keeps it apart, or accept "
+                   : "; cloth has no contact with cloth here: `self_contact=on` keeps it apart, or accept "
                      "them with ") +
-              "--allow-crossings " + std::to_string(shape.crossings.pairs),
+              "`allow_crossings=" + std::to_string(shape.crossings.pairs) + "`",
           garment, "garment.allow_crossings"}});
   return faults;
 }
@@ -151,9 +151,9 @@ Warning raised_gap(const io::Scene& scene, const geometry::Mesh& garment, double
   return {"gap_raised",
           "the cloth keeps " + geometry::length_text(gap) + " from the body, not " +
               geometry::length_text(wanted) + ", so strain and ease come out too large; " +
-              (long_edges ? "its edges are long: with --subdivide " + std::to_string(scene.subdivide + 1) +
-                                " it is " + geometry::length_text(finer)
-                          : "--tolerance asks for a finer field of the body"),
+              (long_edges ? "its edges are long: with `subdivide=" + std::to_string(scene.subdivide + 1) +
+                                "` it is " + geometry::length_text(finer)
+                          : "`tolerance` asks for a finer field of the body"),
           scene.garment.string(), long_edges ? "garment.subdivide" : "body.tolerance"};
 }
 
@@ -181,15 +181,15 @@ std::optional<Warning> falls_freely(const io::Scene& scene, const std::vector<st
   return Warning{
       "nothing_holds",
       scene.garment.stem().string() +
-          ": falls, as there is neither a body nor a pin: name a body with --body, or what is held "
-          "with --pin-loop, --pin-group, --pin-box or --pin-vertices",
+          ": falls, as there is neither a body nor a pin: name a body with `body`, or what is held "
+          "with `pin_loop`, `pin_group`, `pin_box` or `pin_vertices`",
       scene.garment.string(), "body"};
 }
 
 Warning interruption_of(const io::Scene& scene, const physics::SimulateReport& report) {
   return {"interrupted",
           "interrupted at " + std::to_string(report.time) + " s; " +
-              (scene.output.state.empty() ? "the shape reached was written; with --save-state it could go on"
+              (scene.output.state.empty() ? "the shape reached was written; with `save_state` it could go on"
                                           : "the state reached was written"),
           "", "output.state"};
 }
@@ -200,7 +200,7 @@ Fault words_of_block(const io::Scene& scene, const physics::SimulateReport& repo
       {"blocked",
        fmt::format("blocked at {:.4g} s, at {}: pins pull the cloth into itself there, and no step is left "
                    "that passes through nothing; lead them otherwise, or let cloth pass through cloth "
-                   "(--self-contact off)",
+                   "(`self_contact=off`)",
                    report.time, place(report.blocked_at)),
        scene.garment.string(), "simulation.self_contact"}};
 }
@@ -212,7 +212,7 @@ std::string words_of_divergence(const io::Scene& scene, const physics::SimulateR
         "not "
         "pass through cloth, more than a twentieth of all, so layers are pressed harder than steps of {:.3g} "
         "s "
-        "can bear; the garment was not written; take shorter steps: --dt {:.1g}",
+        "can bear; the garment was not written; take shorter steps: `dt={:.1g}`",
         report.time, report.cut_moves, report.dt, report.dt / 3);
   std::ostringstream text;
   text << "the simulation diverged at " << report.time << " s with steps of " << report.dt

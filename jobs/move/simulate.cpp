@@ -374,7 +374,7 @@ std::vector<Warning> remarks_on_run(const Run& run, const physics::SimulateRepor
   const std::vector<Warning> presses = idle_presses(run.scene.material, *io::find_wrinkle_record(file));
   all.insert(all.end(), presses.begin(), presses.end());
   if (run.resumed && r.time >= run.scene.simulation.seconds && r.steps == steps_before)
-    all.push_back({"at_end_already", "the state is at the end already; --seconds puts that off", "",
+    all.push_back({"at_end_already", "the state is at the end already; `seconds` puts that off", "",
                    "simulation.seconds"});
   if (r.outcome == physics::Outcome::stopped_by_observer) all.push_back(interruption_of(run.scene, r));
   return all;
@@ -438,9 +438,8 @@ Judgement choose_setting(const SimulateJob& job, OpenScene& scene, const Context
       prepare_scene(scene.scene, {context.frame, silent, context.memory}, body, Chains::taken);
   if (geometry::is_chain(cloth.file.mesh))
     throw std::invalid_argument(
-        "--accuracy: surfaces are compared, and the garment is a chain, without faces; choose --integrator "
-        "and "
-        "--dt");
+        "`accuracy`: surfaces are compared, and the garment is a chain, without faces; choose "
+        "`integrator` and `dt`");
   Judgement judgement = judge(cloth, cloth.world(scene.scene), options, context);
   if (!judgement.has_answer()) return judgement;
   set_candidate(scene.document, judgement.candidates[std::size_t(judgement.chosen)].candidate);
@@ -520,7 +519,7 @@ std::optional<io::SavedState> run_until_drawn(const OpenScene& scene, const Cont
     if (stretch.report.outcome == physics::Outcome::stopped_by_observer) return std::nullopt;
     if (stretch.report.outcome == physics::Outcome::diverged)
       throw std::runtime_error("the simulation diverged at " + std::to_string(stretch.report.time) +
-                               " s, before its last lines; furrow simulate tells more");
+                               " s, before its last lines; `furrow simulate` tells more");
   }
 }
 

@@ -38,7 +38,7 @@ void check_lies_below(const fs::path& output, const fs::path& folder, const std:
   if (way.empty() || *way.begin() == "..")
     throw std::invalid_argument(place + ": " + output.string() + " lies outside of the scene's folder, " +
                                 (folder.empty() ? "." : folder.string()) +
-                                "; allow it with --outputs-below FOLDER, or name the output by a flag");
+                                "; allow it with `outputs_below=FOLDER`, or name the output by a flag");
 }
 
 /// Folders that a scene file names are made, so that a fresh copy of it runs; those of flags must be there.
@@ -63,7 +63,7 @@ void check_output_formats(const io::SceneOutput& out, bool has_body) {
     if (!path.empty()) check_output(path.string());
   for (const auto& path : {out.inserted, out.smoothed, out.settled, out.body})
     if (path == "-")
-      throw std::invalid_argument("only the garment at the end (-o) can go to standard output");
+      throw std::invalid_argument("only the garment at the end (`output`) can go to standard output");
   if (!out.animation.empty() && !io::animation_format(out.animation))
     throw std::invalid_argument(out.animation.string() +
                                 ": the ending names no animation; choose pc2, mdd or glb");
@@ -72,7 +72,7 @@ void check_output_formats(const io::SceneOutput& out, bool has_body) {
     throw std::invalid_argument(out.state.string() + ": a state is a .ply file");
   if (!out.state.empty()) check_output(out.state.string());
   if (!out.body.empty() && !has_body)
-    throw std::invalid_argument("--save-body: there is no body; name one with --body");
+    throw std::invalid_argument("`save_body`: there is no body; name one with `body`");
 }
 
 /// A state names its files in JSON, which is UTF-8: any other name would be lost.
@@ -91,9 +91,9 @@ void check_outputs(const OpenScene& open, const SimulateJob& job, Listener& list
   const io::Scene& scene = open.scene;
   const io::SceneOutput& out = scene.output;
   if (job.needs_output && out.mesh.empty() && out.state.empty() && out.animation.empty())
-    throw std::invalid_argument("nothing to write: name --output, --save-state or --animation");
+    throw std::invalid_argument("nothing to write: name `output`, `save_state` or `animation`");
   if (out.checkpoint && out.state.empty())
-    throw std::invalid_argument("--checkpoint: there is no state to write; name one with --save-state");
+    throw std::invalid_argument("`checkpoint`: there is no state to write; name one with `save_state`");
   check_output_formats(out, scene.body.has_value());
   if (!out.state.empty()) check_names(open.document, "output.state");
   std::vector<std::string> written;
@@ -107,10 +107,10 @@ void check_state(const io::Scene& scene, const io::SavedState& state) {
   const io::Json garment = state.scene->value("garment", io::Json::object());
   if (scene.subdivide != garment.value("subdivide", 0))
     throw std::invalid_argument(
-        "--subdivide: the garment of a state is in motion; refine it before the first step");
+        "`subdivide`: the garment of a state is in motion; refine it before the first step");
   if (scene.keep != (garment.value("rest", "stored") == "keep"))
     throw std::invalid_argument(
-        "--rest: the garment of a state is in motion; furrow keep --state keeps its shape");
+        "`rest`: the garment of a state is in motion; `furrow keep state` keeps its shape");
 }
 
 /// What the garment's file notes of its cloth, else the usual one (true); warns where the settings name

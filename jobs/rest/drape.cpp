@@ -24,15 +24,15 @@ namespace {
 void check_scene(const io::Scene& scene) {
   if (!scene.body && scene.pins.empty())
     throw std::invalid_argument(
-        "a garment rests on a body or hangs from what holds it: name a body with --body, or what is held "
-        "with --pin-loop, --pin-group, --pin-box or --pin-vertices");
+        "a garment rests on a body or hangs from what holds it: name a body with `body`, or what is held "
+        "with `pin_loop`, `pin_group`, `pin_box` or `pin_vertices`");
   if (scene.body && !scene.body->frames.empty())
-    throw std::invalid_argument("--body-frames: drape fits a garment to one pose; simulate moves it");
+    throw std::invalid_argument("`body_frames`: drape fits a garment to one pose; simulate moves it");
   if (scene.body && !physics::at_rest(scene.body->motion))
     throw std::invalid_argument(
         "body.motion: drape takes the body as it lies in its file; move it there, or simulate");
   if (!scene.lines.empty())
-    throw std::invalid_argument("drape draws no lines; draw them on what it writes, with furrow wrinkle");
+    throw std::invalid_argument("drape draws no lines; draw them on what it writes, with `furrow wrinkle`");
 }
 
 /// What several garments are not draped with.
@@ -41,21 +41,21 @@ void check_layers(const DrapeJob& job, const io::Scene& scene) {
   const auto leave_out = [](const std::string& option) {
     throw std::invalid_argument(option + ": not with several garments; leave it out, or drape one of them");
   };
-  if (!scene.pins.empty()) leave_out("pins (--pin-loop, --pin-group, --pin-box, --pin-vertices)");
-  if (!s.bands.empty()) leave_out("--band");
-  if (!job.fabrics.empty()) leave_out("--fabrics");
-  if (s.plain) leave_out("--plain");
-  if (s.loose == LooseUse::drop) leave_out("--loose drop");
-  if (s.bending_friction > 0) leave_out("--bending-friction");
-  if (!s.animation.empty()) leave_out("--animation");
-  if (scene.starts > 1) leave_out("--starts");
+  if (!scene.pins.empty()) leave_out("pins (`pin_loop`, `pin_group`, `pin_box`, `pin_vertices`)");
+  if (!s.bands.empty()) leave_out("`band`");
+  if (!job.fabrics.empty()) leave_out("`fabrics`");
+  if (s.plain) leave_out("`plain`");
+  if (s.loose == LooseUse::drop) leave_out("`loose=drop`");
+  if (s.bending_friction > 0) leave_out("`bending_friction`");
+  if (!s.animation.empty()) leave_out("`animation`");
+  if (scene.starts > 1) leave_out("`starts`");
   if (s.self_contact == SelfContactUse::off)
     throw std::invalid_argument(
-        "--self-contact off: several garments need it to stay apart; leave it out, or drape each by itself");
-  if (!scene.body) throw std::invalid_argument("several garments are draped on a body: name it with --body");
+        "`self_contact=off`: several garments need it to stay apart; leave it out, or drape each by itself");
+  if (!scene.body) throw std::invalid_argument("several garments are draped on a body: name it with `body`");
   if (job.output == "-")
     throw std::invalid_argument(
-        "--output -: several garments are several files; write -o worn.ply, which becomes "
+        "`output=-`: several garments are several files; write `output=worn.ply`, which becomes "
         "worn-shirt.ply and so on");
 }
 
@@ -118,13 +118,13 @@ void check(const DrapeJob& job, const GarmentScenes& all, const io::Scene& scene
   if (s.thickness) require("drape", "thickness", *s.thickness, *s.thickness > 0, "> 0");
   if (s.contact_depth) require("drape", "contact_depth", *s.contact_depth, *s.contact_depth > 0, "> 0");
   if (scene.starts > 1 && !s.animation.empty())
-    throw std::invalid_argument("--animation shows one way to rest; leave it out, or --starts");
+    throw std::invalid_argument("`animation` shows one way to rest; leave it out, or `starts`");
   if (job.fabrics.size() > 1 && (!job.output.empty() || !s.animation.empty()))
-    throw std::invalid_argument("--fabrics writes a picture only; drape each by itself for its mesh");
-  if (!(s.residual > 0)) throw std::invalid_argument("--residual takes a number > 0");
+    throw std::invalid_argument("`fabrics` writes a picture only; drape each by itself for its mesh");
+  if (!(s.residual > 0)) throw std::invalid_argument("`residual` takes a number > 0");
   if (s.plain && s.contact_depth)
     throw std::invalid_argument(
-        "--contact-depth: --plain moves cloth out to the gap at once; leave out one of them");
+        "`contact_depth`: `plain` moves cloth out to the gap at once; leave out one of them");
   const std::string output = job.output.string(), animation = s.animation.string();
   if (!output.empty()) check_output(output);
   if (!animation.empty() && !io::animation_format(s.animation))
@@ -153,8 +153,8 @@ void warn_of_unused_settings(const io::TomlDocument& document, Listener& listene
   for (const std::string& path : io::settings_without_use(document, io::used_by::drape))
     names += (names.empty() ? "" : ", ") + path;
   if (names.empty()) return;
-  listener.warn(
-      {"settings_unused", "a garment at rest has no use for " + names + "; furrow simulate has", names, ""});
+  listener.warn({"settings_unused", "a garment at rest has no use for " + names + "; `furrow simulate` has",
+                 names, ""});
 }
 
 /// The settings with what the garment's file notes, or cotton, unless something is said of what the cloth is.
@@ -186,11 +186,11 @@ std::vector<io::Scene> scenes_of(const DrapeJob& job, const OpenScene& open) {
   if (job.fabrics.empty()) return {open.scene};
   const io::TomlDocument& document = open.document;
   if (document.root->contains("/material/preset"_json_pointer) && !document.is_of_file("material.preset"))
-    throw std::invalid_argument("--fabric: --fabrics names the fabrics; leave out one of them");
+    throw std::invalid_argument("`fabric`: `fabrics` names the fabrics; leave out one of them");
   std::vector<io::Scene> scenes;
   for (const std::string& fabric : job.fabrics) {
     io::TomlDocument other = document;
-    io::set_value(other, "material.preset", fabric, "--fabrics");
+    io::set_value(other, "material.preset", fabric, "`fabrics`");
     take_fabric_file(other, open.folder);
     scenes.push_back(scene_of(other, open.folder));
     scenes.back().subdivide = open.scene.subdivide;

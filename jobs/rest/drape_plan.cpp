@@ -12,6 +12,7 @@
 #include "geometry/mesh/struts.h"
 #include "geometry/mesh/vertex_attributes.h"
 #include "geometry/rest/rest_metric.h"
+#include "io/base/field_words.h"
 #include "jobs/base/gate.h"
 #include "jobs/base/measure_crossings.h"
 #include "jobs/base/read_inputs.h"
@@ -52,13 +53,14 @@ double gap_with(double wanted, double sag, double tolerance) { return std::max(w
 std::string remedy_of_gap(const geometry::Mesh& garment, double sag, int levels, double wanted,
                           double tolerance) {
   if (sag <= tolerance)
-    return fmt::format("--set body.tolerance={:.2g} asks for a finer field of the body", tolerance / 2);
+    return fmt::format("`body.tolerance={:.2g}` asks for a finer field of the body", tolerance / 2);
   const double vertices = double(garment.number_of_vertices()) * std::pow(4, levels + 1);
   const bool drawn = geometry::find_map(garment, geometry::attribute::line).has_value();
   return std::string("its edges are long: ") +
-         (drawn ? "refine it before its lines are drawn (furrow subdivide), or " : "") + "with --subdivide " +
-         std::to_string(levels + 1) + " (some " + std::to_string(std::llround(vertices)) +
-         " vertices) it is " + geometry::length_text(gap_with(wanted, sag / 4, tolerance));
+         (drawn ? "refine it before its lines are drawn (`furrow subdivide`), or " : "") +
+         "with `subdivide=" + std::to_string(levels + 1) + "` (some " +
+         std::to_string(std::llround(vertices)) + " vertices) it is " +
+         geometry::length_text(gap_with(wanted, sag / 4, tolerance));
 }
 
 }  // namespace
@@ -184,11 +186,11 @@ GivenGarment read_given(const io::Scene& scene, const BodyCollider* body, const 
   if (choose && !s.plain && body)
     given.scene.subdivide =
         refinements_for_gap(given.file.mesh, scene.simulation.contact_gap, body->field.report().tolerance);
-  require_refinement(given.file.mesh->number_of_faces(), 4, given.scene.subdivide, "--subdivide", context);
+  require_refinement(given.file.mesh->number_of_faces(), 4, given.scene.subdivide, "subdivide", context);
   if (given.scene.subdivide > 0 &&
       geometry::struts(given.file.mesh).size() > seam_ties(given.file.mesh).size())
     context.warn("struts_dropped",
-                 "--subdivide drops the struts that the garment has, its bands among them; say --band again",
+                 "`subdivide` drops the struts that the garment has, its bands among them; say `band` again",
                  "garment.subdivide", "bands");
   return given;
 }
@@ -196,7 +198,9 @@ GivenGarment read_given(const io::Scene& scene, const BodyCollider* body, const 
 double soft_start_of(const io::MeshFile& garment, bool pinned) {
   constexpr double times_softer = 30;  // 10 and 100 do as well
   const auto record = io::find_wrinkle_record(garment);
-  return pinned && record && record->options.find("--rule fold") != std::string::npos ? times_softer : 1;
+  return pinned && record && record->options.find(io::flag_of("rule", "fold")) != std::string::npos
+             ? times_softer
+             : 1;
 }
 
 int refinements_for_gap(const geometry::Mesh& garment, double wanted, double tolerance) {

@@ -18,7 +18,7 @@ namespace furrow::jobs {
 namespace {
 
 /// The next refinement.
-std::string finer(const Draped& d) { return "--subdivide " + std::to_string(d.refinements + 1); }
+std::string finer(const Draped& d) { return "`subdivide=" + std::to_string(d.refinements + 1) + "`"; }
 
 /// What the body does to the cloth that has come to rest on it.
 void remark_on_contact(const Draped& d, std::vector<DrapeRemark>& remarks) {
@@ -36,9 +36,9 @@ void remark_on_contact(const Draped& d, std::vector<DrapeRemark>& remarks) {
                      : "lies inside the body, by up to " +
                            geometry::length_text(fit.distance.deepest_penetration)) +
               (d.placed ? "; it is too small there, or the body leaves cloth no room; refine it with "
-                        : "; look at where the garment lies before it is draped (and at --unit), refine it "
+                        : "; look at where the garment lies before it is draped (and at `unit`), refine it "
                           "with ") +
-              finer(d) + ", or accept it with --penetration",
+              finer(d) + ", or accept it with `penetration`",
           d.name, "garment.subdivide"}});
   else if (faces)
     remarks.push_back(
@@ -67,7 +67,7 @@ void remark_on_start(const Draped& d, std::vector<DrapeRemark>& remarks) {
        {"starts_inside",
         fmt::format(
             "{}: lies up to {} inside the body as it is given ({} of {} vertices were brought out): if "
-            "it was made for another body, name that one with --made-for, and it is brought here",
+            "it was made for another body, name that one with `made_for`, and it is brought here",
             d.name, geometry::length_text(pushed.farthest - d.gap), pushed.moved,
             d.report.levels.front().vertices),
         d.name, "made_for"}});
@@ -94,27 +94,28 @@ bool crosses_between_parts(const ClothCrossings& c) {
 
 /// What a user can do about cloth that crosses itself.
 std::string remedy_of_crossings(const Draped& d) {
-  const std::string apart =
-      crosses_between_parts(d.crossings)
-          ? "; these are separate pieces: give each as a file of its own, the inner one first (furrow drape "
-            "inner.obj outer.obj)"
-          : "";
+  const std::string apart = crosses_between_parts(d.crossings)
+                                ? "; these are separate pieces: give each as a file of its own, the inner "
+                                  "one first (`furrow drape` "
+                                  "inner.obj outer.obj)"
+                                : "";
   if (!d.untangled.lines.empty()) return words_of_tangle(d.untangled) + ": part its layers there" + apart;
   if (d.other && d.other->self_contact)
     return "with contact of cloth with cloth no better rest was found: part its layers, or give it room" +
            apart;
   if (d.crossings.pairs <= d.crossings.from_start)
-    return "it crosses itself as it is given: part its layers before it is draped, or try --self-contact on" +
+    return "it crosses itself as it is given: part its layers before it is draped, or try `self_contact=on`" +
            apart;
   if (d.self_contact)
     return "cloth is not held apart where it crosses itself as it is given: part its layers there" + apart;
-  return "--self-contact on keeps cloth off cloth" + apart;
+  return "`self_contact=on` keeps cloth off cloth" + apart;
 }
 
 void remark_on_crossings(const Draped& d, std::vector<DrapeRemark>& remarks) {
   if (!d.crossings.pairs) return;
   const std::string accept =
-      d.crosses_itself() ? "; accept them with --allow-crossings " + std::to_string(d.crossings.pairs) : "";
+      d.crosses_itself() ? "; accept them with `allow_crossings=" + std::to_string(d.crossings.pairs) + "`"
+                         : "";
   remarks.push_back(
       {d.crosses_itself(),
        {"cloth_crosses", d.name + ": " + words(d.crossings) + "; " + remedy_of_crossings(d) + accept, d.name,
@@ -134,7 +135,7 @@ void remark_on_way_back(const Draped& d, std::vector<DrapeRemark>& remarks) {
        {"contact_left_out",
         fmt::format(
             "{}: draped without contact of cloth with cloth, as with it the garment ends {}{} after {} "
-            "iterations, residual force {:.2g}, {} pairs of faces crossing; --self-contact on writes "
+            "iterations, residual force {:.2g}, {} pairs of faces crossing; `self_contact=on` writes "
             "that, off does not look for it",
             d.name, other.outcome, where, other.iterations, other.residual, other.crossings),
         d.name, "self_contact"}});
@@ -146,7 +147,7 @@ void remark_on_way_kept(const Draped& d, std::vector<DrapeRemark>& remarks) {
   remarks.push_back({false,
                      {"contact_kept",
                       fmt::format("{}: without contact of cloth with cloth the garment ends {}, {} pairs of "
-                                  "faces crossing, which is worse; --self-contact off writes that",
+                                  "faces crossing, which is worse; `self_contact=off` writes that",
                                   d.name, d.other->outcome, d.other->crossings),
                       d.name, "self_contact"}});
 }
@@ -185,7 +186,7 @@ void remark_on_strain(const Draped& d, std::vector<DrapeRemark>& remarks) {
             fmt::format(": torn: {:.0f} % of the cloth is strained by more than {:.0f} %, up to {:.0f} %{}; "
                         "the garment is too small for this body{}",
                         100 * strain.share_over, 100 * d.fit_options.tight_strain, 100 * strain.max, where,
-                        d.placed ? "" : ", or lies inside it: look at --unit, and at where it lies"),
+                        d.placed ? "" : ", or lies inside it: look at `unit`, and at where it lies"),
         d.name, "unit"}});
 }
 
@@ -219,8 +220,8 @@ void remark_on_loose_parts(const Draped& d, std::vector<DrapeRemark>& remarks) {
                         names, words_of_loose(d.loose_parts), cut,
                         d.loose_parts.use == LooseUse::drop
                             ? ""
-                            : "; join them to the garment in its file, pin them (--pin-group, --pin-box), or "
-                              "take them out (--loose drop)"),
+                            : "; join them to the garment in its file, pin them (`pin_group`, `pin_box`), or "
+                              "take them out (`loose=drop`)"),
         d.name, "pins"}});
 }
 
@@ -233,7 +234,7 @@ void remark_on_nothing_carried(const Draped& d, const physics::SettleReport& las
          {"numerical_failure",
           d.name +
               fmt::format(": numerical failure: the forces cannot be computed (residual force {:.2g} of a "
-                          "vertex's weight); look at --stretch, --rigidity, --density and --gravity, one "
+                          "vertex's weight); look at `stretch`, `rigidity`, `density` and `gravity`, one "
                           "of which is far beyond any cloth's",
                           last.residual),
           d.name, "material"}});
@@ -243,7 +244,7 @@ void remark_on_nothing_carried(const Draped& d, const physics::SettleReport& las
                      {"touches_nothing",
                       d.name + ": never came to lie on the body, which is " +
                           geometry::length_text(d.fit.body_high - d.fit.body_low) +
-                          " tall; look at where the two are, and at --unit, which is that of both files",
+                          " tall; look at where the two are, and at `unit`, which is that of both files",
                       d.name, "unit"}});
 }
 
@@ -256,7 +257,7 @@ void remark_on_block(const Draped& d, const physics::SettleReport& last, std::ve
         fmt::format(
             "{}: blocked at ({:.2f}, {:.2f}, {:.2f}) m after {} iterations, residual force {:.2g} of a "
             "vertex's weight: cloth lies so close to cloth there that no step is left; give it room "
-            "where it begins, hold more of it, or make the cloth thinner with --cloth-thickness",
+            "where it begins, hold more of it, or make the cloth thinner with `cloth_thickness`",
             d.name, at.x(), at.y(), at.z(), last.iterations, last.residual),
         d.name, "self_contact"}});
 }
@@ -304,11 +305,11 @@ void remark_on_unrest(const Draped& d, std::vector<DrapeRemark>& remarks) {
        << last.residual << " of a vertex's weight, cloth " << geometry::length_text(last.deepest)
        << " deep in the gap";
   if (last.stuck)
-    text << ", and no step leads on: draw or lay it otherwise, or try --starts 4";
+    text << ", and no step leads on: draw or lay it otherwise, or try `starts=4`";
   else if (last.self.cut_moves.value_or(0) > 0)
     text << ", " << *last.self.cut_moves << " moves of vertices cut, as cloth was in their way";
   if (!last.stuck && !d.end.is_torn())
-    text << "; give more with --max-iterations, or accept it with --residual";
+    text << "; give more with `max_iterations`, or accept it with `residual`";
   remarks.push_back({true, {"not_at_rest", text.str(), d.name, "iterations"}});
 }
 
@@ -398,7 +399,7 @@ void remark_on_crossed_layers(const LayerPair& p, std::size_t allowed, std::vect
                     p.began_inside() ? "the outer one lies inside as it is given: name it before the other"
                                      : "they were not taken apart there: part them where they are given, or "
                                        "give the outer one room",
-                    fails ? fmt::format("; accept them with --allow-crossings {}", p.crossings) : ""),
+                    fails ? fmt::format("; accept them with `allow_crossings={}`", p.crossings) : ""),
         p.outer, "garment.allow_crossings"}});
 }
 

@@ -22,16 +22,16 @@ namespace {
 void check(const FitJob& job, Listener& listener) {
   if (job.worn.empty()) throw std::invalid_argument("fit: there is no garment");
   if (job.bodies.empty() || (job.bodies.size() > 1 && job.bodies.size() != job.worn.size()))
-    throw std::invalid_argument("--body: " + std::to_string(job.bodies.size()) + " bodies for " +
+    throw std::invalid_argument("`body`: " + std::to_string(job.bodies.size()) + " bodies for " +
                                 std::to_string(job.worn.size()) + " garments; give one, or one for each");
   const std::string output = job.output.string();
   if (!output.empty() && job.worn.size() > 1)
-    throw std::invalid_argument("-o writes one garment, not those of --compare");
-  if (job.rest && job.worn.size() > 1) throw std::invalid_argument("--rest-shape is that of one garment");
+    throw std::invalid_argument("`output` writes one garment, not those of `compare`");
+  if (job.rest && job.worn.size() > 1) throw std::invalid_argument("`rest_shape` is that of one garment");
   if (job.body_unit && !is_unit(*job.body_unit))
-    throw std::invalid_argument("--body-unit: '" + *job.body_unit + "' is not m, cm, mm or inch");
+    throw std::invalid_argument("`body_unit`: '" + *job.body_unit + "' is not m, cm, mm or inch");
   if (job.range && !(*job.range > 0 && std::isfinite(*job.range)))
-    throw std::invalid_argument("--range takes a number > 0, not " + Json(*job.range).dump());
+    throw std::invalid_argument("`range` takes a number > 0, not " + Json(*job.range).dump());
   if (!output.empty()) check_output(output);
   std::vector<std::string> outputs{output}, inputs = job.more_inputs;
   outputs.insert(outputs.end(), job.more_outputs.begin(), job.more_outputs.end());
@@ -86,13 +86,13 @@ FittedGarment measure(const MeshInput& worn, const Body& body, const FitJob& job
     context.warn(
         "strain_unknown",
         path +
-            ": has no rest lengths, so its strain is not known; --rest-shape takes the garment as it was "
+            ": has no rest lengths, so its strain is not known; `rest_shape` takes the garment as it was "
             "made" +
-            (job.worn.size() > 1 ? " (a second body needs a --body of its own)" : ""),
+            (job.worn.size() > 1 ? " (a second body needs a `body` of its own)" : ""),
         path, "rest");
   if (fitted.report.ease.empty())
     context.warn("sections_not_found",
-                 "no chest, waist and hips were found on the body; --section chest=1.25 tells their heights",
+                 "no chest, waist and hips were found on the body; `section=chest=1.25` tells their heights",
                  "", "sections");
   return fitted;
 }
@@ -102,10 +102,9 @@ FitColour shown_colour(const std::vector<FittedGarment>& all, const std::optiona
   const auto without =
       std::find_if(all.begin(), all.end(), [](const FittedGarment& f) { return !f.report.strain; });
   if (wanted == FitColour::strain && without != all.end())
-    throw geometry::ContentError(
-        without->name +
-        ": has no rest lengths, so no strain can be shown; give --rest-shape, or --colour "
-        "distance");
+    throw geometry::ContentError(without->name +
+                                 ": has no rest lengths, so no strain can be shown; give `rest_shape`, or "
+                                 "`colour=distance`");
   return wanted == FitColour::distance || without != all.end() ? FitColour::distance : FitColour::strain;
 }
 

@@ -74,7 +74,7 @@ GarmentMaker::GarmentMaker(const io::Scene& scene, const BodyCollider* body, con
   for (const Band& band : settings.bands) try {
       band_vertices_.push_back(vertex_of_loop(as_read.mesh, band.loop));
     } catch (const std::invalid_argument& e) {
-      throw std::invalid_argument("--band: " + std::string(e.what()));
+      throw std::invalid_argument("`band`: " + std::string(e.what()));
     }
 }
 

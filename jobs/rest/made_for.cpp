@@ -23,7 +23,7 @@ geometry::Skeleton skeleton_of(const physics::TriangleMesh& body, const std::str
     return geometry::find_skeleton(points, body.triangles);
   } catch (const geometry::ContentError& e) {
     throw geometry::ContentError(path + ": " + e.what() +
-                                 ". --made-for needs that of both bodies; without it the garment must lie "
+                                 ". `made_for` needs that of both bodies; without it the garment must lie "
                                  "about the body that it is draped on");
   }
 }
@@ -67,7 +67,7 @@ void warn_of_pose(const Placed& placed, const std::string& name, const Context& 
 void check_made_for(const std::filesystem::path& made_for, const io::Scene& scene) {
   if (!made_for.empty() && !scene.body)
     throw std::invalid_argument(
-        "--made-for: brings a garment from one body to another; name the other one with --body");
+        "`made_for`: brings a garment from one body to another; name the other one with `body`");
 }
 
 MadeFor read_made_for(const std::filesystem::path& path, const physics::TriangleMesh& body,

@@ -38,7 +38,7 @@ std::string legend_of(const io::FitScale& scale) {
 }  // namespace
 
 SketchFit fit_sketch(const Sketch& sketch, const Json& strokes, FitColour colour, Listener& listener) {
-  if (!sketch.body) throw std::invalid_argument("there is no body to fit; open the garment with --body");
+  if (!sketch.body) throw std::invalid_argument("there is no body to fit; open the garment with `body`");
   FitJob job;
   io::MeshFile drawn = draw_sketch(sketch, strokes, listener).file;
   if (!geometry::find_map(drawn.mesh, geometry::attribute::rest_length))

@@ -68,7 +68,7 @@ void check_rounds(const io::Scene& scene, const std::string& name, Listener& lis
     throw std::invalid_argument(name +
                                 ": lines: the studio draws one round of lines at time 0, and there are " +
                                 std::to_string(rounds_at_start(scene)) +
-                                "; join their strokes in one file, or run it with furrow simulate");
+                                "; join their strokes in one file, or run it with `furrow simulate`");
   if (scene.lines.size() > rounds_at_start(scene))
     listener.warn({"later_lines",
                    name + ": lines that are drawn later are not shown; they stay in the saved scene", name,

@@ -11,6 +11,7 @@ furrow_add_tests(cli cli LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURC
   json_schema.cpp
   strict_json_test.cpp
   usage_test.cpp
+  messages_test.cpp
   completion_test.cpp
   summary_test.cpp
   mistakes_test.cpp

@@ -5,6 +5,7 @@
 #include <regex>
 #include <set>
 
+#include "io/base/field_words.h"
 #include "io/scene/settings_schema.h"
 #include "run_furrow.h"
 
@@ -50,19 +51,21 @@ TEST_CASE("usage: --help shows at most thirty options in groups, --help-all thos
 
 TEST_CASE("usage: the help of each subcommand has the flags that the schema of settings gives it") {
   namespace used_by = furrow::io::used_by;
+  const auto flag_name = [](const furrow::io::Setting& s) { return furrow::io::flag_of(s.keyword); };
   for (const auto& [sub, bit] : {std::pair("simulate", used_by::simulate),
                                  {"keep", used_by::keep},
                                  {"drape", used_by::drape},
                                  {"wrinkle", used_by::wrinkle}}) {
     const std::string help = run_furrow(std::string(sub) + " --help-all").out;
     for (const furrow::io::Setting& s : furrow::io::scene_settings()) {
-      if (s.flag.empty() || (bit == used_by::wrinkle && s.flag == "--density")) continue;  // its own option
-      const std::string words = furrow::io::described(s, &furrow::io::Setting::long_flag);
-      INFO(sub << " " << s.flag << ": " << words);
+      if (s.keyword.empty() || (bit == used_by::wrinkle && s.keyword == "density"))
+        continue;  // its own option
+      const std::string words = furrow::io::described(s, flag_name);
+      INFO(sub << " " << s.keyword << ": " << words);
       const bool is_there = help.find(words) != std::string::npos;
       const bool is_common = s.flag_in == used_by::nobody;  // with words of its own
       CHECK((is_common || is_there == ((s.flag_in & bit) != 0)));
-      if (is_common || is_there) CHECK(help.find(s.long_flag()) != std::string::npos);
+      if (is_common || is_there) CHECK(help.find(flag_name(s)) != std::string::npos);
     }
   }
 }

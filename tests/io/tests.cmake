@@ -4,6 +4,7 @@ furrow_add_tests(io io LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURCES
   base/base64_test.cpp
   base/bytes_file_test.cpp
   base/child_process_test.cpp
+  base/field_words_test.cpp
   base/error_types_test.cpp
   base/fuzz_corpus_test.cpp
   base/nesting_test.cpp

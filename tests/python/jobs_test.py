@@ -228,6 +228,14 @@ class Errors(unittest.TestCase):
         with self.assertRaises(furrow.ContentError):
             furrow.wrinkle(strip(), [{"points": [[9, 9, 9], [9, 9, 8]]}])
 
+    def test_messages_name_keywords(self):
+        with self.assertRaisesRegex(ValueError, "name a body with body, or what is held with pin_loop, pin_group"):
+            furrow.drape(strip())
+        with self.assertRaisesRegex(ValueError, 'self_contact="off": several garments need it'):
+            furrow.drape([strip(), strip()], body=strip(), self_contact="off")
+        with self.assertWarnsRegex(furrow.FurrowWarning, "furrow.simulate has"):
+            furrow.drape(strip(), pin_vertices=[0, 11], subdivide=0, settings={"simulation.seconds": 3})
+
     def test_warnings_have_a_code_and_name_the_line_that_called(self):
         with self.assertWarns(furrow.FurrowWarning) as told:
             furrow.drape(strip(), pin_vertices=[0, 11], subdivide=0, settings={"simulation.seconds": 3})

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "studio/page_words.h"
 #include "studio/replay.h"
 #include "studio/session.h"
 #include "tests/studio/failing_disk.h"
@@ -238,6 +239,18 @@ int do_at_random(std::uint64_t seed, int intentions, const std::string& name) {
 }
 
 }  // namespace
+
+TEST_CASE("studio protocol: messages name what the page has, and leave out advice for other faces") {
+  CHECK(studio::in_page(
+            "3 pairs cross; cloth has no contact with cloth here: `self_contact=on` keeps it apart, or "
+            "accept them with `allow_crossings=3`") ==
+        "3 pairs cross; Tangles (T) shows where, Undo takes it back");
+  CHECK(studio::in_page("swings; `furrow keep` finds out which lines hold") ==
+        "swings; Keep finds out which lines hold");
+  CHECK(studio::in_page("not at rest; give more with `max_iterations`; look at `unit`") ==
+        "not at rest; look at Unit");
+  CHECK(studio::in_page("`cloth_thickness` is no number; say so") == "cloth_thickness is no number; say so");
+}
 
 TEST_CASE(
     "studio protocol: random intentions on a failing disk are done or refused, undone to the start, and "

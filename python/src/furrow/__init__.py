@@ -9,7 +9,6 @@
 Metres, y up, SI units. Keywords are the command line's flags with underscores (docs/python.md).
 """
 import inspect as _inspect
-import re as _re
 import warnings as _warnings
 
 from . import _furrow
@@ -66,17 +65,9 @@ class Result:
         return f"<furrow.Result of {self.job}: {'succeeded' if self.succeeded else 'failed'}, {meshes}>"
 
 
-def _told(text, keywords):
-    """Flags of the command line in a message, as the keywords that they are here."""
-    def name(match):
-        word = match.group(1).replace("-", "_")
-        return word if word in keywords or word == "scene" else match.group(0)
-    return _re.sub(r"--([a-z][a-z0-9-]*)", name, text)
-
-
-def _warner(keywords, category=FurrowWarning, level=4):
+def _warner(category=FurrowWarning, level=4):
     def warn(code, text, where, help):
-        warning = category(_told(text, keywords), code, _told(where, keywords), _told(help, keywords))
+        warning = category(text, code, where, help)
         _warnings.warn(warning, stacklevel=level)
         return warning
     return warn
@@ -88,12 +79,8 @@ def _repaired(text, name):
 
 
 def _run(job, inputs, given):
-    keywords = _KEYWORDS[job]
-    try:
-        report, meshes, failures, succeeded = _furrow.run(job, inputs, given, _warner(keywords))
-    except (ValueError, ContentError) as error:
-        raise type(error)(_told(str(error), keywords)) from None
-    failed = _warner(keywords, FailureWarning)
+    report, meshes, failures, succeeded = _furrow.run(job, inputs, given, _warner())
+    failed = _warner(FailureWarning)
     return Result(job, report, meshes, succeeded, [failed(*failure) for failure in failures])
 
 
@@ -134,7 +121,6 @@ _JOBS = {
     "doctor": (("mesh",), (), "Say what is wrong with a mesh, where, and what mends it; with repair, mend it."),
     "quality": (("mesh",), (), "Measure how well a cloth is folded; each measure stands beside its target."),
 }
-_KEYWORDS = {job: {name for name, _, _ in _furrow.keywords(job)} for job in _JOBS}
 
 
 def _function(job):
@@ -173,19 +159,19 @@ body, quality = _function("body"), _function("quality")
 
 def read_mesh(path, *, unit=None, up=None):
     """The mesh of a file: obj, ply, off, stl, gltf, glb. unit: m, cm, mm, inch; up: y, z (default m, y, or as noted)."""
-    return _furrow.read_mesh(path, {"unit": unit, "up": up}, _warner({"unit", "up"}, level=3))
+    return _furrow.read_mesh(path, {"unit": unit, "up": up}, _warner(level=3))
 
 
 def _write(self, path, *, unit=None, up=None):
     """Writes the mesh by the ending of the path: obj, ply, off, stl, glb; whole or not at all."""
-    _furrow.write_mesh(self, path, {"unit": unit, "up": up}, _warner({"unit", "up"}, level=3))
+    _furrow.write_mesh(self, path, {"unit": unit, "up": up}, _warner(level=3))
 
 
 def info(mesh, *, unit=None, up=None):
     """What a mesh, or that of a file, is: counts, topology, lengths [m], areas, faults, borders, lines."""
     if isinstance(mesh, Mesh):
         return _furrow.info(mesh)
-    return _furrow.info(_furrow.read_mesh(mesh, {"unit": unit, "up": up}, _warner({"unit", "up"}, level=3)))
+    return _furrow.info(_furrow.read_mesh(mesh, {"unit": unit, "up": up}, _warner(level=3)))
 
 
 def from_meshio(mesh, name=""):

@@ -13,13 +13,6 @@ import { type Drawn, Pen } from "./pen";
 import { type Done, type Hearer, Program, type Vector } from "./protocol";
 import { type Seen, View } from "./view";
 
-/** What a job says of options of the command line, in words that the page has. */
-const inPage = (text: string) =>
-  text
-    .replace(/; cloth has no contact with cloth here: .*/g, "; Tangles (T) shows where, Undo takes it back")
-    .replace(/; --[a-z-]+[^;.\n]*/g, "")
-    .replace(/furrow keep/g, "Keep")
-    .replace(/furrow drape/g, "Drape");
 const sentences = (...all: (string | string[] | undefined)[]) => all.flat().filter(Boolean).join("\n");
 
 export class Studio {
@@ -133,10 +126,7 @@ export class Studio {
         sentences(
           then?.(done),
           (done.told ?? []).map((t) => `Note: ${t}`),
-        )
-          .split("\n")
-          .map(inPage)
-          .join("\n"),
+        ),
       );
       return true;
     } catch (e) {

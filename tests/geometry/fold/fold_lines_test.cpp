@@ -451,7 +451,7 @@ TEST_CASE(
     FAIL("they were drawn");
   } catch (const ContentError& e) {
     CHECK_THAT(e.what(), Catch::Contains("stroke \"fold\"") && Catch::Contains("million faces") &&
-                             Catch::Contains("--unit"));
+                             Catch::Contains("`unit`"));
   }
   CHECK(mesh.number_of_vertices() == 121);
 }

@@ -62,7 +62,7 @@ TEST_CASE("nesting: records, states, scenes, settings and strokes of 100,000 lev
   CHECK_THROWS_WITH(io::parse_toml("\n" + times(100000, "a.") + "a=1\n", "s.toml"),
                     Catch::Equals("s.toml:2: a key is nested more than 100 levels deep; no setting is"));
   io::TomlDocument document;
-  CHECK_THROWS_WITH(io::set_value(document, times(100000, "a.") + "a", 1, "--set"),
+  CHECK_THROWS_WITH(io::set_value(document, times(100000, "a.") + "a", 1, "`set`"),
                     Catch::Contains("nested more than 100 levels deep"));
   CHECK_THROWS_WITH(io::JsonFields("s.json").parse("{\"strokes\":" + deep + "}"),
                     Catch::StartsWith("s.json: no valid JSON: nested more than 100 levels deep"));

@@ -237,7 +237,7 @@ TEST_CASE("glTF out: what one vertex has too many or too few weights for is told
     for (const Vertex v : many.mesh->vertices()) joint.values[v] = joint.name == "weight_hand" ? 0.1 : 0.3;
   const WrittenGlb four = glb_of(many);
   CHECK(tells(four.lost, "all but the four largest skin weights of 4 vertices"));
-  CHECK(tells(four.lost, "--max-weights 4"));
+  CHECK(tells(four.lost, "`max_weights=4`"));
   for (const std::uint16_t j :
        four.glb.numbers<std::uint16_t>(four.glb.primitive()["attributes"]["JOINTS_0"]))
     CHECK(j != 1);  // the hand's, the least

@@ -130,7 +130,7 @@ TEST_CASE("OBJ: two-point lines that share vertices are chained, loops are close
 TEST_CASE("OBJ: lines without a face are a chain for those who ask for one, and an error that says so") {
   const std::string text = "v 0 0 0\nv 100 0 0\nv 0 0 50\nv 1 1 1\nl 1 2 3\n";
   CHECK(error_of_obj(text) ==
-        "test: no faces, only lines: a chain, which furrow simulate moves; here a mesh with "
+        "test: no faces, only lines: a chain, which `furrow simulate` moves; here a mesh with "
         "at least one triangle is needed");
   const io::MeshFile file = obj(text, {.metres_per_unit = 0.01, .up = io::Axis::z, .chains = true});
   CHECK(file.mesh->number_of_vertices() == 4);

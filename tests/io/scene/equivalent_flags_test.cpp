@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "io/base/field_words.h"
 #include "io/scene/settings_schema.h"
 
 using namespace furrow;
@@ -44,10 +45,10 @@ TEST_CASE("equivalent_flags: of a state, what is not as the state had it") {
 
 TEST_CASE("equivalent_flags: every setting of the schema with a flag is said with it") {
   for (const io::Setting& s : io::scene_settings()) {
-    if (s.flag.empty() || s.table().empty() || s.table() == "pins") continue;
+    if (s.keyword.empty() || s.table().empty() || s.table() == "pins") continue;
     const Json value = s.kind == io::Kind::yes_no ? Json(true) : s.is_text() ? Json("word") : Json(3);
     const std::string shown = s.kind == io::Kind::yes_no ? "" : s.is_text() ? " word" : " 3";
     CHECK(equivalent_flags(Json{{s.table(), {{s.key(), value}}}}, "", {}) ==
-          "simulate " + s.long_flag() + shown);
+          "simulate " + io::flag_of(s.keyword) + shown);
   }
 }

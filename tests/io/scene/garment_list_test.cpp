@@ -66,5 +66,5 @@ TEST_CASE("garment_list: faults name the line of the garment that has them") {
                            "s.toml:3:1: garment.mesh is missing");
   const std::string list = "[[garment]]\nmesh = \"a.obj\"\n";
   CHECK_THROWS_WITH(io::read_scene(io::parse_toml(list, "s.toml"), ""),
-                    Catch::Contains("furrow drape alone takes several"));
+                    Catch::Contains("`furrow drape` alone takes several"));
 }

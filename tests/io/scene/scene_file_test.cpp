@@ -300,19 +300,19 @@ TEST_CASE("scene_file: a pinned loop is named, or numbered without quotes") {
 TEST_CASE("scene_file: settings of the command line go over those of the file and say so in faults") {
   io::TomlDocument document =
       parse_toml("[material]\nbending = 1\n[garment]\nmesh = \"g.obj\"\n", "a/s.toml");
-  io::set_value(document, "material.bending", io::parse_value("2.5"), "--bending");
-  io::set_value(document, "body.mesh", "b.obj", "--body");
-  io::set_value(document, "pins.0.loop", "top", "--set");
+  io::set_value(document, "material.bending", io::parse_value("2.5"), "`bending`");
+  io::set_value(document, "body.mesh", "b.obj", "`body`");
+  io::set_value(document, "pins.0.loop", "top", "`set`");
   const io::Scene s = io::read_scene(document, "a");
   CHECK(s.material.bending == 2.5);
   CHECK(s.garment == "a/g.obj");
   CHECK(s.body->mesh == "b.obj");
   CHECK(s.pins.at(0).loop == "top");
-  io::set_value(document, "material.bending", "soft", "--bending");
-  CHECK_THROWS_WITH(io::read_scene(document, "a"), Catch::StartsWith("--bending: material.bending"));
-  CHECK_THROWS_AS(io::set_value(document, "pins.5.loop", "top", "--set"), std::invalid_argument);
-  CHECK_THROWS_AS(io::set_value(document, "material.bending.x", 1, "--set"), std::invalid_argument);
-  CHECK_THROWS_AS(io::set_value(document, "material..x", 1, "--set"), std::invalid_argument);
+  io::set_value(document, "material.bending", "soft", "`bending`");
+  CHECK_THROWS_WITH(io::read_scene(document, "a"), Catch::StartsWith("`bending`: material.bending"));
+  CHECK_THROWS_AS(io::set_value(document, "pins.5.loop", "top", "`set`"), std::invalid_argument);
+  CHECK_THROWS_AS(io::set_value(document, "material.bending.x", 1, "`set`"), std::invalid_argument);
+  CHECK_THROWS_AS(io::set_value(document, "material..x", 1, "`set`"), std::invalid_argument);
 }
 
 TEST_CASE("scene_file: values of the command line are TOML where they can be") {
@@ -330,7 +330,7 @@ TEST_CASE("scene_file: a scene's paths can be made relative to another folder") 
   io::TomlDocument document =
       parse_toml("[garment]\nmesh = \"../g.obj\"\n[[lines]]\nstrokes = \"l.json\"\n[output]\nmesh = \"-\"\n",
                  "a/b/s.toml");
-  io::set_value(document, "body.mesh", "b.obj", "--body");
+  io::set_value(document, "body.mesh", "b.obj", "`body`");
   const io::Json moved = io::relocated(document, "a/b", "a/c");
   CHECK(moved["garment"]["mesh"] == "../g.obj");
   CHECK(moved["lines"][0]["strokes"] == "../b/l.json");

@@ -10,6 +10,7 @@
 
 #include "geometry/mesh/errors.h"
 #include "io/base/bytes_file.h"
+#include "io/base/field_words.h"
 #include "io/scene/scene_file.h"
 #include "tests/test_paths.h"
 
@@ -40,7 +41,7 @@ std::string page() {
     for (const Setting& s : io::scene_settings()) {
       if (s.table() != table.name) continue;
       text += "| " + name + " | " + code(s.key()) + " | " + s.what + " | " + with_powers(s.range) + " | " +
-              s.usual + " | " + (s.flag.empty() ? "" : code(s.long_flag())) + " |\n";
+              s.usual + " | " + (s.keyword.empty() ? "" : code(io::flag_of(s.keyword))) + " |\n";
       name = "";
     }
   }
@@ -137,15 +138,14 @@ TEST_CASE("settings: the default of a number or a choice is one of its values") 
 }
 
 TEST_CASE("settings: paths and flags are told apart, and nobody has a flag without a use for it") {
-  std::set<std::string> paths, flags;
+  std::set<std::string> paths, keywords;
   for (const Setting& s : io::scene_settings()) {
     INFO(s.path);
     CHECK(paths.insert(s.path).second);
     CHECK_FALSE(s.what.empty());
     CHECK_FALSE(s.usual.empty());
-    if (s.flag.empty()) continue;
-    CHECK(flags.insert(s.long_flag()).second);
-    CHECK(holds(s.long_flag(), "--"));
+    if (s.keyword.empty()) continue;
+    CHECK(keywords.insert(s.keyword).second);
     CHECK((s.flag_in & ~s.used) == 0);
   }
 }

@@ -47,11 +47,11 @@ TEST_CASE("gate: a size that another unit explains is asked about by that unit's
   const geometry::Mesh small = tests::icosphere(2, 0.00085), person = tests::icosphere(2, 0.85);
   CHECK(jobs::odd_size(person, "body", in_unit("m")).empty());
   CHECK_THAT(jobs::odd_size(small, "body", in_unit("mm")),
-             Contains("the body is 1.7 mm in size with --unit mm; say --unit m if its file is in that"));
+             Contains("the body is 1.7 mm in size with `unit=mm`; say `unit=m` if its file is in that"));
   CHECK_THAT(jobs::odd_size(tests::icosphere(2, 0.01), "garment", in_unit("mm")),
-             Contains("--unit cm or inch"));
+             Contains("`unit=cm or inch`"));
   CHECK_THAT(jobs::odd_size(small, "body", in_unit("m")),
-             Contains("no --unit makes it a person's; scale it"));
+             Contains("no `unit` makes it a person's; scale it"));
   CHECK_THAT(jobs::odd_size(tests::icosphere(2, 850), "body", in_unit("m")), Contains("m tall"));
   // A swatch is small, and may well be.
   CHECK(jobs::odd_size(tests::icosphere(2, 0.01), "garment", in_unit("m")).empty());
@@ -61,19 +61,19 @@ TEST_CASE("gate: what is allowed goes on, and what is not is refused with the wa
   const geometry::Mesh small = tests::icosphere(2, 1e-6);
   jobs::Listener nobody;
   CHECK_THROWS_WITH(jobs::require_size(small, "b.obj", "body", {jobs::Frame(), nobody}),
-                    Catch::StartsWith("b.obj: the body is") && Contains("--force"));
+                    Catch::StartsWith("b.obj: the body is") && Contains("`force`"));
   Generous generous;
   const jobs::Context context{jobs::Frame(), generous};
   jobs::require_size(small, "b.obj", "body", context);
   jobs::require_animation(10, 1e9, 3000, context);
-  jobs::require_refinement(10000, 4, 8, "--subdivide", context);
+  jobs::require_refinement(10000, 4, 8, "subdivide", context);
   REQUIRE(generous.demands.size() == 3);
-  CHECK_THAT(generous.demands[1], Contains("--fps 1e+09: the animation would have 1e+10 frames"));
-  CHECK_THAT(generous.demands[2], Contains("--subdivide 8: the mesh would have 6.6e+08 faces"));
+  CHECK_THAT(generous.demands[1], Contains("`fps=1e+09`: the animation would have 1e+10 frames"));
+  CHECK_THAT(generous.demands[2], Contains("`subdivide=8`: the mesh would have 6.6e+08 faces"));
   const jobs::Context strict{jobs::Frame(), nobody};
-  CHECK_THROWS_WITH(jobs::require_animation(10, 1e9, 3000, strict), Contains("--force goes on all the same"));
-  CHECK_THROWS_AS(jobs::require_refinement(10000, 4, 8, "--subdivide", strict), std::invalid_argument);
-  CHECK_NOTHROW(jobs::require_refinement(10000, 4, 4, "--subdivide", strict));
+  CHECK_THROWS_WITH(jobs::require_animation(10, 1e9, 3000, strict), Contains("`force` goes on all the same"));
+  CHECK_THROWS_AS(jobs::require_refinement(10000, 4, 8, "subdivide", strict), std::invalid_argument);
+  CHECK_NOTHROW(jobs::require_refinement(10000, 4, 4, "subdivide", strict));
   CHECK_NOTHROW(jobs::require_animation(100, 240, 10000, strict));
 }
 
@@ -84,8 +84,8 @@ TEST_CASE("gate: a simulation of more than a day of processor time is asked abou
   jobs::SimulationGate gate(2, true, 1e-3, strict);
   CHECK_NOTHROW(gate.check(fast));
   CHECK_THROWS_WITH(gate.check(slow), Contains("2e+09 steps of 1e-09 s") && Contains("23 days") &&
-                                          Contains("take a longer --dt"));
-  CHECK_THROWS_WITH(jobs::SimulationGate(2, false, 1e-3, strict).check(slow), Contains("--density"));
+                                          Contains("take a longer `dt`"));
+  CHECK_THROWS_WITH(jobs::SimulationGate(2, false, 1e-3, strict).check(slow), Contains("`density`"));
   Generous generous;
   const jobs::Context open{jobs::Frame(), generous};
   jobs::SimulationGate asked(2, true, 1e-3, open);
@@ -154,7 +154,7 @@ TEST_CASE("gate: a field that needs more than the limit is refused with its body
   job.output = folder / "ball.field";
   jobs::Listener nobody;
   CHECK_THROWS_WITH(jobs::field(job, nobody), Catch::StartsWith((folder / "ball.obj").string()) &&
-                                                  Contains("raise the tolerance to") && Contains("--force"));
+                                                  Contains("raise the tolerance to") && Contains("`force`"));
   CHECK(tests::names_in(folder) == std::set<std::string>{"ball.obj"});
   Generous generous;
   jobs::field(job, generous);

@@ -280,7 +280,7 @@ TEST_CASE("check_replaced: asks once a file that is there and is not furrow's, a
   jobs::check_replaced({own, "", "-", "/dev/null", (folder / "new.obj").string()}, {}, listener);
   CHECK(listener.asked == 0);
   CHECK_THROWS_WITH(jobs::check_replaced({own, foreign}, {}, listener),
-                    Contains("foreign.obj: exists, and furrow did not write it") && Contains("--replace"));
+                    Contains("foreign.obj: exists, and furrow did not write it") && Contains("`replace`"));
   CHECK(listener.asked == 1);
   listener.answer = true;
   jobs::check_replaced({own, foreign}, {}, listener);

@@ -201,7 +201,7 @@ TEST_CASE("wrinkle: with settle the drawn sheet comes to rest in cotton, as drap
   job.settle.emplace();
   job.smoothed = folder / "drawn.ply";
   job.output = folder / "rests.ply";
-  CHECK_THROWS_WITH(jobs::wrinkle(job, recorder), Catch::Contains("--pin-loop") && Catch::Contains("--body"));
+  CHECK_THROWS_WITH(jobs::wrinkle(job, recorder), Catch::Contains("`pin_loop`") && Catch::Contains("`body`"));
   io::set_value(job.settle->settings, "pins.0", io::Json{{"box", {-1, 0.399, -1, 1, 1, 1}}}, "test");
   const jobs::WrinkleReport report = jobs::wrinkle(job, recorder);
   REQUIRE(report.rest);
@@ -250,7 +250,7 @@ TEST_CASE(
   CHECK(fine.garment.mesh->number_of_vertices() > coarse.garment.mesh->number_of_vertices());
   CHECK(io::find_wrinkle_record(fine.garment)->garment.empty());
   job.subdivide = 5;
-  CHECK_THROWS_WITH(jobs::wrinkle(job, leaving), Catch::Contains("--subdivide 5"));
+  CHECK_THROWS_WITH(jobs::wrinkle(job, leaving), Catch::Contains("`subdivide=5`"));
 }
 
 TEST_CASE("drape: a line that rest loses is warned of by its name") {

@@ -261,7 +261,7 @@ TEST_CASE("chain: what needs faces refuses one in a sentence") {
   const fs::path folder = tests::empty_folder("chain_refused");
   const fs::path mesh = write_lines(folder / "v.obj", uneven_v());
   jobs::Listener listener;
-  const auto refused = Contains("a chain, which furrow simulate moves");
+  const auto refused = Contains("a chain, which `furrow simulate` moves");
   CHECK_THROWS_WITH(io::read_mesh(mesh), refused);
   const jobs::SceneInput scene =
       job_of(mesh, "[[pins]]\nvertices = [0, 32]\n[material]\nbending_law = \"hinge\"\n").scene;

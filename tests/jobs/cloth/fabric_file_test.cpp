@@ -36,7 +36,7 @@ TEST_CASE(
   const auto taken = [&](const std::string& text) {
     std::ofstream(folder / "mine.toml") << text;
     io::TomlDocument document;
-    io::set_value(document, "material.preset", (folder / "mine.toml").string(), "--fabric");
+    io::set_value(document, "material.preset", (folder / "mine.toml").string(), "`fabric`");
     jobs::take_fabric_file(document, "elsewhere");
     return document.root["material"];
   };

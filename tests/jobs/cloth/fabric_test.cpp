@@ -59,13 +59,13 @@ TEST_CASE("drape_disc: friction of bending holds a disc up, by hinges and by a p
   }
   jobs::DiscJob job = disc_of("cotton", 10);
   job.bending_friction = -1;
-  CHECK_THROWS_WITH(jobs::drape_disc(job, recorder), Catch::StartsWith("--bending-friction"));
+  CHECK_THROWS_WITH(jobs::drape_disc(job, recorder), Catch::StartsWith("`bending_friction`"));
 }
 
 TEST_CASE("drape_disc: what does not fit is refused, and it can be cancelled") {
   tests::Recorder recorder, impatient(3);
   CHECK_THROWS_WITH(jobs::drape_disc(disc_of("cotton", 12), recorder),
-                    Catch::StartsWith("--rings: 12 does not fit"));
+                    Catch::StartsWith("`rings`: 12 does not fit"));
   jobs::DiscJob job = disc_of("cotton", 10);
   job.folds.clear();
   CHECK_THROWS_AS(jobs::drape_disc(job, recorder), std::invalid_argument);
@@ -100,7 +100,7 @@ TEST_CASE("fit_rigidity: it finds a rigidity that drapes as it was measured, or 
   again.material = fit.material;
   CHECK(jobs::drape_disc(again, recorder).coefficient == fit.coefficient);
   CHECK_THROWS_WITH(jobs::fit_rigidity(stiff, 0.01, recorder),
-                    Catch::StartsWith("--drape: no rigidity drapes so"));
+                    Catch::StartsWith("`drape`: no rigidity drapes so"));
 }
 
 TEST_CASE("fabric_from_table: KES and FAST figures in SI units, and what is missing by its name") {

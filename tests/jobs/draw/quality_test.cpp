@@ -198,7 +198,7 @@ TEST_CASE("quality: knobs and thin faces that a garment may have had before its 
   REQUIRE(knobs.value.value() > 40);
   CHECK_FALSE(knobs.at_most);
   CHECK(knobs.met());
-  CHECK(knobs.why.find("--base") != std::string::npos);
+  CHECK(knobs.why.find("`base`") != std::string::npos);
   job.base = plain_sheet();
   const jobs::QualityReport known = quality_of(job);
   CHECK_FALSE(measure_of(known, "B6").met());

@@ -125,7 +125,7 @@ TEST_CASE("doctor: a soup of loose triangles is told, refused by drape, and join
   CHECK(report.mesh.mesh->number_of_faces() == sheet.number_of_faces());
   CHECK(geometry::measure(report.mesh.mesh).boundary_loops == 1);
   CHECK(io::read_mesh(folder / "mended.obj").mesh->number_of_vertices() == sheet.number_of_vertices());
-  CHECK(drape_refused(soup, mannequin()).find("furrow doctor --repair") != std::string::npos);
+  CHECK(drape_refused(soup, mannequin()).find("`furrow doctor repair`") != std::string::npos);
 }
 
 TEST_CASE(
@@ -176,8 +176,8 @@ TEST_CASE("doctor: a body that lies along z is asked about, unless somebody says
   tests::Recorder recorder;
   const jobs::DoctorReport report = examine(shirt(), lying(mannequin()));
   REQUIRE(find(report.found, "z_up"));
-  CHECK(find(report.found, "z_up")->help == "--up z");
-  CHECK(drape_refused(shirt(), lying(mannequin())).find("--up z") != std::string::npos);
+  CHECK(find(report.found, "z_up")->help == "`up=z`");
+  CHECK(drape_refused(shirt(), lying(mannequin())).find("`up=z`") != std::string::npos);
   jobs::FitJob fit;
   fit.worn = {file_of(shirt())};
   fit.bodies = {file_of(lying(mannequin()))};
@@ -217,10 +217,10 @@ TEST_CASE("doctor: a garment whose file has another axis up than its body's is t
 TEST_CASE("doctor: garment and body in two units, or exchanged, are asked about by the option that mends it",
           "[long]") {
   const std::string small = drape_refused(scaled(shirt(), 0.01), mannequin());
-  CHECK(small.find("--body-unit") != std::string::npos);
+  CHECK(small.find("`body_unit`") != std::string::npos);
   const jobs::DoctorReport larger = examine(scaled(shirt(), 10), scaled(mannequin(), 0.06));
   REQUIRE(find(larger.found, "two_units"));
-  CHECK(find(larger.found, "two_units")->help == "--unit cm --body-unit m");
+  CHECK(find(larger.found, "two_units")->help == "`unit=cm` `body_unit=m`");
   const std::string turned = drape_refused(mannequin(), shirt());
   CHECK(turned.find("exchanged") != std::string::npos);
   CHECK(examine(shirt(), mannequin()).well());

@@ -336,7 +336,7 @@ TEST_CASE("simulate: a line that fades or turns over is warned of by name, with 
   };
   REQUIRE(lost(faded));
   CHECK(lost(faded)->where == "ridge");
-  CHECK(lost(faded)->help == "furrow keep");
+  CHECK(lost(faded)->help == "`furrow keep`");
   CHECK(lost(faded)->text.find("the line lost more than half of its height: 'ridge' ") == 0);
   CHECK(lost(faded)->text.find(" mm)") != std::string::npos);
   const jobs::SimulateReport fresh = jobs::simulate(hung_sheet(0.001), recorder);
@@ -499,12 +499,12 @@ TEST_CASE("simulate: a run that diverged is told what helps, and nothing of a bo
   physics::SimulateReport run;
   run.dt = 3.6e-5;
   io::Scene scene;
-  CHECK_THAT(jobs::words_of_divergence(scene, run), Catch::EndsWith("; take shorter steps: --dt 1e-05"));
+  CHECK_THAT(jobs::words_of_divergence(scene, run), Catch::EndsWith("; take shorter steps: `dt=1e-05`"));
   scene.body.emplace();
   CHECK_THAT(jobs::words_of_divergence(scene, run),
-             Catch::EndsWith("inside the body, or take shorter steps: --dt 1e-05"));
+             Catch::EndsWith("inside the body, or take shorter steps: `dt=1e-05`"));
   scene.simulation.dt = 1e-3;
-  CHECK_THAT(jobs::words_of_divergence(scene, run), Catch::EndsWith("leave out --dt"));
+  CHECK_THAT(jobs::words_of_divergence(scene, run), Catch::EndsWith("leave out `dt`"));
 }
 
 TEST_CASE("simulate: what was stretched on the way is told where the end does not show it") {
@@ -635,7 +635,7 @@ TEST_CASE(
   tests::Recorder recorder;
   jobs::SimulateJob job = settled_sheet(0);
   job.scene.settings.root->erase("pins");
-  CHECK_THROWS_WITH(jobs::simulate(job, recorder), Catch::Contains("--pin-loop"));
+  CHECK_THROWS_WITH(jobs::simulate(job, recorder), Catch::Contains("`pin_loop`"));
   job.scene.memory.meshes["ball"].mesh = tests::icosphere(2, 0.1, {0, -6, 0});
   io::set_value(job.scene.settings, "body.mesh", "ball", "test");
   io::set_value(job.scene.settings, "body.tolerance", 0.005, "test");

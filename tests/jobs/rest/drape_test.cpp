@@ -205,7 +205,7 @@ TEST_CASE("drape: of several starts the rest with the lowest energy is taken, an
   CHECK(json.at("starts").at("runs").size() == 3);
   CHECK(json.at("energy").at("total").get<double>() == d.report.energy.total());
   job.settings.animation = folder / "way.pc2";
-  CHECK_THROWS_WITH(jobs::drape(job, recorder), Catch::Contains("--starts"));
+  CHECK_THROWS_WITH(jobs::drape(job, recorder), Catch::Contains("`starts`"));
 }
 
 TEST_CASE("drape: cancelled after the first of several starts, what rests is written and told as interrupted",
@@ -675,7 +675,7 @@ TEST_CASE("drape: without a body a part that no pin holds is named, and nothing 
   CHECK(only(report).outcome() == "at rest, 1 of 2 parts loose");
   CHECK(remarks_on(report, "loose_parts"));
   job.scene.settings.root->erase("pins");
-  CHECK_THROWS_WITH(jobs::drape(job, recorder), Catch::Contains("--pin-loop") && Catch::Contains("--body"));
+  CHECK_THROWS_WITH(jobs::drape(job, recorder), Catch::Contains("`pin_loop`") && Catch::Contains("`body`"));
 }
 
 TEST_CASE("drape: a plate comes to rest on a ball, near to where hinges do, and with friction, too",

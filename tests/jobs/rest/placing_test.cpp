@@ -113,7 +113,7 @@ TEST_CASE("placing: lines are drawn where the garment lies, and brought with it 
   job.made_for = mannequin;
   tests::Recorder recorder;
   CHECK_THROWS_WITH(jobs::wrinkle(job, recorder),
-                    Catch::Contains("--made-for") && Catch::Contains("--settle"));
+                    Catch::Contains("`made_for`") && Catch::Contains("`settle`"));
   job.settle = brought.scene;
   const jobs::WrinkleReport report = jobs::wrinkle(job, recorder);
   REQUIRE(report.rest);
@@ -127,7 +127,7 @@ TEST_CASE("placing: lines are drawn where the garment lies, and brought with it 
   CHECK(to_json(report)["at_rest"].contains("placed"));
   job.settle->settings.root->erase("body");
   io::set_value(job.settle->settings, "pins.0.loop", "top", "the test");
-  CHECK_THROWS_WITH(jobs::wrinkle(job, recorder), Catch::Contains("name the other one with --body"));
+  CHECK_THROWS_WITH(jobs::wrinkle(job, recorder), Catch::Contains("name the other one with `body`"));
 }
 
 TEST_CASE("placing: what cannot be brought is refused, and what lies in the body is told what helps") {
@@ -136,7 +136,7 @@ TEST_CASE("placing: what cannot be brought is refused, and what lies in the body
   job.scene.memory.meshes["ball.obj"].mesh = tests::icosphere(3, 0.8);
   job.settings.made_for = "ball.obj";
   CHECK_THROWS_WITH(jobs::drape(job, recorder), Catch::StartsWith("ball.obj: the body has no"));
-  CHECK_THROWS_WITH(jobs::drape(job, recorder), Catch::Contains("--made-for"));
+  CHECK_THROWS_WITH(jobs::drape(job, recorder), Catch::Contains("`made_for`"));
   job = on_another("skirt.obj");
   job.scene.settings.root->erase("body");
   io::set_value(job.scene.settings, "pins.0.loop", "top", "the test");
