@@ -37,10 +37,7 @@ int body(const BodyArguments& a) {
     throw UsageError("no measurement is asked for: name --height, --chest, --waist or --hip, in metres");
   Terminal terminal(a);
   const BodyReport report = jobs::shape_body({in, a, m, a.out}, terminal);
-  CommonArguments common = a;
-  common.unit = report.frame.unit_in_use();
-  common.up = report.frame.up_in_use();
-  if (a.out == "-") write_mesh(report.mesh, common);
+  if (a.out == "-") write_mesh(report.mesh, in_frame(a, report.frame));
   Json json = to_json(report);
   std::vector<std::string> lines{(asks ? "was: " : "") + measures_words(report.shape.before)};
   if (asks) lines.push_back("now: " + measures_words(report.shape.reached));

@@ -72,6 +72,11 @@ void flush_output();
 /// with a schema version. A report without a summary is printed whole.
 void print_report(const Json& report, const CommonArguments& common, const Summary& summary = {});
 void warn(const std::string& message, const CommonArguments& common);
+/// The arguments, with unit and axis of what a job wrote.
+inline CommonArguments in_frame(CommonArguments common, const Frame& frame) {
+  static_cast<Frame&>(common) = frame;
+  return common;
+}
 /// Those that are not empty, for "written" of a report.
 std::vector<std::string> names_of_files(std::vector<std::string> names);
 

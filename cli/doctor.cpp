@@ -77,12 +77,7 @@ int doctor(const DoctorArguments& a) {
   check_picture(a.picture, "--picture");
   Terminal terminal(a);
   const DoctorReport report = jobs::doctor(job_of(a), terminal);
-  if (a.out == "-") {
-    CommonArguments common = a;
-    common.unit = report.frame.unit_in_use();
-    common.up = report.frame.up_in_use();
-    write_mesh(report.mesh, common);
-  }
+  if (a.out == "-") write_mesh(report.mesh, in_frame(a, report.frame));
   if (!a.picture.empty()) write_picture(report, a);
   Json json = a.json ? to_json(report) : sentences(to_json(report));
   const std::vector<std::string> lines = doctor_lines(json);

@@ -216,9 +216,7 @@ int drape(const DrapeArguments& a) {
   Terminal terminal(a, a.budget);
   io::OutputGroup together;
   DrapeJobReport report = jobs::drape(job_of(a), terminal);
-  CommonArguments common = a;
-  common.unit = report.frame.unit;
-  common.up = report.frame.up;
+  const CommonArguments common = in_frame(a, report.frame);
   if (a.out == "-") write_mesh(report.garments[0].file, common);
   const bool draws = !a.picture.empty() && !interrupted();  // that may take longer than the fit
   try {

@@ -97,9 +97,7 @@ void fit(FitArguments a) {
   check_call(a);
   Terminal terminal(a);
   const FitJobReport report = jobs::fit(job_of(a), terminal);
-  CommonArguments common = a;
-  common.unit = report.frame.unit_in_use();
-  common.up = report.frame.up_in_use();
+  const CommonArguments common = in_frame(a, report.frame);
   if (!a.picture.empty()) write_picture(report, a, common);
   if (a.out == "-") write_mesh(report.garments[0].garment, common);
   Json json = to_json(report);

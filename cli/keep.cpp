@@ -53,9 +53,7 @@ int keep(const KeepArguments& a) {
   const KeepReport report = jobs::keep(job_of(a), terminal);
   if (report.budget_spent) report_spent_budget(a.budget, {report.mesh.string()});
   if (!report.ran) return report.budget_spent ? exit_not_converged : exit_interrupted;
-  CommonArguments common = a;
-  common.unit = report.frame.unit;
-  common.up = report.frame.up;
+  const CommonArguments common = in_frame(a, report.frame);
   if (report.mesh == "-") write_mesh("-", report.garment, common);
   if (!a.picture.empty()) {
     std::vector<io::RenderScene> scenes{verdict_scene(report.garment.mesh, report.lines)};

@@ -70,8 +70,7 @@ std::vector<std::string> outputs_of(const Json& settings) {
 
 /// The mesh, if it goes to standard output, then the report.
 void print(const SimulateReport& report, CommonArguments common) {
-  common.unit = report.frame.unit;
-  common.up = report.frame.up;
+  common = in_frame(common, report.frame);
   common.out = report.settings->value("/output/mesh"_json_pointer, std::string());
   if (common.out == "-" && report.failure.empty()) write_mesh(report.garment, common);
   Json json = to_json(report);

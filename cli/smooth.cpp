@@ -20,10 +20,7 @@ void smooth(const SmoothArguments& a) {
   const SmoothJob job{std::filesystem::path(a.in), a, to_options(a.smoothing), a.out};
   Terminal terminal(a);
   const SmoothReport report = jobs::smooth(job, terminal);
-  CommonArguments common = a;
-  common.unit = report.frame.unit_in_use();
-  common.up = report.frame.up_in_use();
-  if (a.out == "-") write_mesh(report.mesh, common);
+  if (a.out == "-") write_mesh(report.mesh, in_frame(a, report.frame));
   Json json = to_json(report);
   json["written"] = a.out;
   print_report(json, a, {smooth_lines(json), {a.out}});

@@ -42,10 +42,7 @@ void subdivide(const SubdivideArguments& a) {
   const SubdivideJob job = job_of(a);
   Terminal terminal(a);
   const SubdivideReport report = jobs::subdivide(job, terminal);
-  CommonArguments common = a;
-  common.unit = report.frame.unit_in_use();
-  common.up = report.frame.up_in_use();
-  if (a.out == "-") write_mesh(report.mesh, common);
+  if (a.out == "-") write_mesh(report.mesh, in_frame(a, report.frame));
   Json json = to_json(report);
   json["written"] = a.out;
   print_report(json, a,

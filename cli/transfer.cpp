@@ -23,14 +23,11 @@ void transfer(const TransferArguments& a) {
   if (!a.rest.empty()) job.rest = Path(a.rest);
   Terminal terminal(a);
   const TransferReport report = jobs::transfer(job, terminal);
-  CommonArguments common = a;
-  common.unit = report.frame.unit_in_use();
-  common.up = report.frame.up_in_use();
   if (a.out == "-" && report.obj_text) {
     std::cout << *report.obj_text;
     flush_output();
   } else if (a.out == "-") {
-    write_mesh(report.result, common);
+    write_mesh(report.result, in_frame(a, report.frame));
   }
   Json json = to_json(report);
   json["written"] = a.out;

@@ -34,17 +34,11 @@ void check_call(const WrinkleArguments& a) {
   const std::string flag = a.flags.first();
   if (!flag.empty() && a.rest != "keep" && !a.settle)
     throw UsageError(flag + ": goes with --rest keep or --settle; furrow simulate chooses it otherwise");
-  if (a.settle && a.rest == "keep")
-    throw UsageError("--settle lets the drawn shape go, --rest keep holds it; leave out one of them");
-  if (a.settle && !a.state.empty())
-    throw UsageError("--settle: the garment of --state is in motion; leave out one of the two");
   if (a.settle && a.out.empty()) throw UsageError("--settle goes with -o");
   if (!a.subdivide.empty() && !a.settle)
     throw UsageError("--subdivide goes with --settle; furrow subdivide refines a garment by itself");
   if (a.smoothed == "-")
     throw UsageError("--smoothed: only the garment at the end (-o) can go to standard output");
-  if (!a.smoothed.empty() && !a.settle)
-    throw UsageError("--smoothed writes what is drawn before it comes to rest; add --settle");
   if (!flag.empty() && !a.state.empty())
     throw UsageError(flag + ": --state has material, pins and body; leave it out");
 }
@@ -156,9 +150,7 @@ int wrinkle(WrinkleArguments a) {
   const WrinkleJob job = job_of(a);
   Terminal terminal(a, a.settle ? a.budget : unlimited);
   const WrinkleReport report = jobs::wrinkle(job, terminal);
-  CommonArguments common = a;
-  common.unit = report.frame.unit_in_use();
-  common.up = report.frame.up_in_use();
+  const CommonArguments common = in_frame(a, report.frame);
   if (!a.preview.empty()) write_preview(report, a);
   if (a.out == "-") write_mesh(report.garment, common);
   if (a.inserted == "-") write_mesh("-", inserted_garment(report), common);

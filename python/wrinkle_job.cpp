@@ -134,12 +134,8 @@ void check_call(const WrinkleCall& c, const Call& call) {
   const auto refuse = [](bool wrong, const char* why) {
     if (wrong) throw std::invalid_argument(why);
   };
-  refuse(c.settle && c.keep,
-         "settle: it lets the drawn shape go, rest \"keep\" holds it; leave out one of them");
-  refuse(c.settle && !c.state.empty(), "settle: the garment of state is in motion; leave out one of the two");
   refuse(call.has("subdivide") && !c.settle,
          "subdivide: goes with settle; furrow.subdivide refines by itself");
-  refuse(call.has("smoothed") && !c.settle, "smoothed: is what is drawn before it comes to rest; add settle");
   refuse(c.job.density && !c.state.empty(), "density: that of a state is changed by furrow.simulate");
 }
 
