@@ -19,8 +19,8 @@ std::string worded(const std::string& text, const std::function<std::string(cons
 nlohmann::ordered_json with_texts(nlohmann::ordered_json value,
                                   const std::function<std::string(const std::string&)>& change);
 
-/// As an option of the program: --cloth-thickness, or --subdivide 1 with a value. For what calls the program, and what
-/// notes such calls; messages name fields.
+/// As an option of the program: --cloth-thickness; with a value --subdivide 1. For what calls the program,
+/// and what notes such calls; messages name fields.
 std::string flag_of(const std::string& field, const std::string& value = "");
 
 }  // namespace furrow::io
