@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cli/camera_options.h"
+#include "cli/print_text.h"
 #include "cli/subcommands.h"
 #include "io/picture/png_file.h"
 #include "io/picture/render_scene.h"
@@ -52,7 +53,7 @@ Json sentences(Json report) {
     for (const Json& a : report[list]) {
       std::string text = a["text"];
       const std::string help = a["help"];
-      if (!help.empty() && text.find(help) == std::string::npos) text += "; " + help;
+      if (!help.empty() && worded(text).find(worded(help)) == std::string::npos) text += "; " + help;
       words.push_back(text);
     }
     report[list] = words;
