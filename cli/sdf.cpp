@@ -15,7 +15,7 @@ struct SdfArguments : CommonArguments {
 };
 
 FieldJob job_of(const SdfArguments& a) {
-  FieldJob job{a.body, a, a.out, a.slice, {}};
+  FieldJob job{a.body, a, a.slice, {}};
   job.body.mesh = a.body_path;
   job.body.options.gradient = a.gradient == "exact" ? physics::GradientRule::exact_derivative
                                                     : physics::GradientRule::interpolated_corners;
@@ -31,12 +31,13 @@ void sdf(const SdfArguments& a) {
   catch_interrupts();
   Terminal terminal(a);
   const Json json = to_json(jobs::field(job, terminal));
-  print_report(json, a,
-               {sdf_lines(json),
-                {a.out, a.slice},
-                a.out.empty() ? std::vector<std::string>{}
-                              : std::vector<std::string>{"furrow", "simulate", "GARMENT", "--body",
-                                                         a.body_path, "--field", a.out, "-o", "worn.ply"}});
+  print_report(
+      json, a,
+      {sdf_lines(json),
+       {a.slice},
+       a.body.cache.empty() ? std::vector<std::string>{}
+                            : std::vector<std::string>{"furrow", "drape", "GARMENT", "--body", a.body_path,
+                                                       "--cache", a.body.cache.string(), "-o", "worn.ply"}});
 }
 
 }  // namespace
@@ -45,9 +46,10 @@ void add_sdf(CLI::App& app) {
   auto a = std::make_shared<SdfArguments>();
   CLI::App* sub = app.add_subcommand("sdf",
                                      "Make the signed distance field of a body; negative inside\n\n"
-                                     "  furrow sdf body.obj -o body.field --picture body.png");
+                                     "  furrow sdf body.obj --cache cache --picture body.png");
   sub->add_option("body", a->body_path, "body to read")->required();
-  sub->add_option("-o,--output", a->out, "file to keep the field in, for furrow simulate --field");
+  sub->add_option("--cache", a->body.cache,
+                  "folder to keep the field in, for furrow drape --cache and others");
   sub->add_option("--picture", a->slice, "PNG of the field in the body's middle plane, seen from the front");
   sub->add_option("--at", a->at, "report distance and gradient at x,y,z [m]");
   sub->add_option("--tolerance", a->body.options.tolerance,

@@ -25,7 +25,7 @@ const std::vector<std::string> plan_keys{"title",   "command", "output",  "mesh"
 const std::vector<std::string> plan_commands{"drape", "simulate", "keep", "wrinkle", "fit"};
 const std::vector<std::string> drawing_commands{"drape", "keep", "fit"};
 /// What names a file whatever it looks like.
-const std::vector<std::string> file_columns{"garment", "body", "made-for", "strokes", "field", "worn"};
+const std::vector<std::string> file_columns{"garment", "body", "made-for", "strokes", "worn"};
 /// What a batch gives each case by itself.
 const std::vector<std::string> own_columns{"output", "picture", "json", "quiet", "replace", "progress"};
 

@@ -65,14 +65,10 @@ void check_body(SettingsTable& table, const Scene& scene) {
   const SceneBody& body = *scene.body;
   const bool says_field = table.has("tolerance") || table.has("gradient");
   if (body.mesh.empty()) table.fail("mesh", "is missing: name the body's mesh");
-  if (!body.field.empty() && says_field)
-    table.fail("field", "has its own tolerance and gradient; leave out those settings");
   if (body.depth_maps && body.frames.empty())
     table.fail("collider", "is for frames: a rigid body's field is built once, and right everywhere");
   if (body.depth_maps && says_field)
     table.fail("collider", "has no tolerance and no gradient; leave out those settings");
-  if (!body.field.empty() && !body.frames.empty())
-    table.fail("field", "is that of a rigid body; frames have a field each");
   if (!body.frames.empty() && !physics::at_rest(body.motion))
     table.fail("frames", "move the body already; leave out its motion");
 }

@@ -408,11 +408,6 @@ const Row<Scene> rows[] = {
      path(FIELD(body->frames))},
     {{.path = "body.fps", .keyword = "body_fps", .what = "frames a second of OBJ files", .usual = "25"},
      number(FIELD(body->fps), positive("1/s"))},
-    {{.path = "body.field",
-      .what = "the body's distance field, saved by `furrow sdf`",
-      .usual = "built",
-      .flag_in = used_by::all},
-     path(FIELD(body->field))},
     {{.path = "body.cache",
       .what = "folder in which what is made of bodies' files (mended surface, field, skeleton) is kept for "
               "other runs ([batches.md](batches.md)); results are the same without",

@@ -224,7 +224,6 @@ void check_inputs(const io::Scene& scene, const io::TomlDocument& document, int 
   blaming_flags([&] { io::check_keep_stands_still(scene, document, lines_drawn); });
   if (lines_drawn < 0) check("garment.mesh", scene.garment);
   if (scene.body) check("body.mesh", scene.body->mesh);
-  if (scene.body) check("body.field", scene.body->field);
   for (std::size_t i = static_cast<std::size_t>(std::max(0, lines_drawn)); i < scene.lines.size(); ++i)
     check("lines." + std::to_string(i) + ".strokes", scene.lines[i].strokes);
 }

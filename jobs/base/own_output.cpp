@@ -55,12 +55,6 @@ bool is_own_glb(const Ends& file) { return file.begins("glTF") && file.has("\"ge
 /// PC2 and MDD; the latter has no word at its beginning.
 bool is_own_point_cache(const Ends& file) { return file.ends(io::own_tail); }
 
-bool is_own_field(const Ends& file) {  // the body's fingerprint stands before the word
-  return std::string_view(file.head)
-      .substr(std::min<std::size_t>(8, file.head.size()))
-      .starts_with("FURFIELD");
-}
-
 bool is_own_png(const Ends& file) {
   return file.begins("\x89PNG\r\n\x1a\n") && file.ends(std::string(io::png_mark).append(io::png_end));
 }
@@ -115,7 +109,7 @@ bool is_own_output(const fs::path& path) {
   if (error) return false;
   const Ends file = ends_of(path);
   for (const auto is_own : {is_own_ply, is_own_obj, is_own_off, is_own_stl, is_own_glb, is_own_point_cache,
-                            is_own_field, is_own_png, is_own_json, is_own_chart, is_own_batch, is_own_manual})
+                            is_own_png, is_own_json, is_own_chart, is_own_batch, is_own_manual})
     if (is_own(file)) return true;
   return false;
 }

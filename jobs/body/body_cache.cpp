@@ -11,7 +11,6 @@
 #include "io/base/bytes_file.h"
 #include "io/base/lower_case.h"
 #include "io/base/share_file.h"
-#include "io/scene/field_file.h"
 #include "jobs/base/kept_value.h"
 #include "jobs/base/read_inputs.h"
 
@@ -67,7 +66,7 @@ void visit(Archive& a, geometry::Skeleton& s) {
 
 namespace {
 
-constexpr int layout = 1;  // of the files; another one when what they hold is made in another way
+constexpr int layout = 2;  // of the files; another one when what they hold is made in another way
 
 std::string hash_of(std::span<const std::byte> bytes) { return io::content_hash(bytes); }
 std::string hash_of(const std::string& text) { return hash_of(std::as_bytes(std::span(text))); }
@@ -96,21 +95,20 @@ void tell(const io::ShareReport& report, const std::filesystem::path& path, cons
                  path.string(), "body.cache");
 }
 
-/// The key, the value and a hash of both.
-template <class Value>
-void write_value(const Place& place, Value& value) {
+/// The key, the block and a hash of both.
+void write_block(const Place& place, const std::vector<std::byte>& block) {
   Saver saver;
   std::string key = place.key;
-  visit(saver, key), visit(saver, value);
+  visit(saver, key);
   std::vector<std::byte> bytes = saver.take();
+  bytes.insert(bytes.end(), block.begin(), block.end());
   const std::string hash = hash_of(bytes);
   const auto end = std::as_bytes(std::span(hash));
   bytes.insert(bytes.end(), end.begin(), end.end());
   io::write_bytes(place.path, bytes);
 }
 
-template <class Value>
-void read_value(const Place& place, Value& value) {
+std::vector<std::byte> read_block(const Place& place) {
   const std::vector<std::byte> bytes = io::read_bytes(place.path);
   constexpr std::size_t hash_length = 16;
   const std::span<const std::byte> all(bytes);
@@ -123,6 +121,21 @@ void read_value(const Place& place, Value& value) {
   std::string key;
   visit(loader, key);
   if (key != place.key) throw std::invalid_argument("it is that of something else");
+  return {bytes.end() - std::ptrdiff_t(hash_length + loader.left()),
+          bytes.end() - std::ptrdiff_t(hash_length)};
+}
+
+template <class Value>
+void write_value(const Place& place, Value& value) {
+  Saver saver;
+  visit(saver, value);
+  write_block(place, saver.take());
+}
+
+template <class Value>
+void read_value(const Place& place, Value& value) {
+  const std::vector<std::byte> block = read_block(place);
+  Loader loader(block);
   Value read;
   visit(loader, read);
   value = std::move(read);
@@ -207,11 +220,11 @@ physics::DistanceField kept_field(const std::filesystem::path& folder, const phy
   if (folder.empty()) return make();
   const Place place = place_of(folder, "field", hash_of(body) + "\n" + words_of(options));
   std::optional<physics::DistanceField> field;
-  const io::ShareReport report =
-      io::share_file(place.path, {.read = [&] { field = io::read_field(place.path, body); },
-                                  .make = [&] { field = make(); },
-                                  .write = [&] { io::write_field(place.path, *field, body); },
-                                  .wait = [&] { stop_if_cancelled(context); }});
+  const io::ShareReport report = io::share_file(
+      place.path, {.read = [&] { field = physics::DistanceField::from_bytes(read_block(place)); },
+                   .make = [&] { field = make(); },
+                   .write = [&] { write_block(place, field->to_bytes()); },
+                   .wait = [&] { stop_if_cancelled(context); }});
   tell(report, place.path, context);
   return std::move(*field);
 }

@@ -7,7 +7,6 @@
 
 #include "io/picture/png_file.h"
 #include "io/picture/render_slice.h"
-#include "io/scene/field_file.h"
 #include "jobs/base/output_checks.h"
 #include "physics/base/cancel_scope.h"
 
@@ -48,15 +47,12 @@ FieldErrors errors_of(const BodyCollider& body) {
 
 FieldReport field(const FieldJob& job, Listener& listener) {
   const physics::CancelScope cancelling([&listener] { return listener.cancelled(); });
-  if (job.output == "-") throw std::invalid_argument("`output`: a field needs a file name");
-  check_folder(job.output.string());
   check_picture(job.slice.string(), "`picture`");
-  check_replaced({job.output.string(), job.slice.string()}, {job.body.mesh.string()}, listener);
+  check_replaced({job.slice.string()}, {job.body.mesh.string()}, listener);
   const auto start = std::chrono::steady_clock::now();
   FieldReport report{load_body(job.body, {job.frame, listener}), {}, job.at, 0};
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const BodyCollider& body = report.body;
-  if (!job.output.empty()) io::write_field(job.output, body.field, body.triangles);
   if (!job.slice.empty())
     io::write_png(job.slice, io::render_slice(body.field, body.exact.low(), body.exact.high()));
   report.errors = errors_of(body);

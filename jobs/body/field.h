@@ -7,11 +7,10 @@
 
 namespace furrow::jobs {
 
-/// The signed distance field of a body, to be built and kept.
+/// The signed distance field of a body, to be built; kept in the body's cache, if it has one.
 struct FieldJob {
   io::SceneBody body;                    ///< its mesh and the options of the field
   Frame frame = {};                      ///< of the body's file
-  std::filesystem::path output;          ///< file of the field; empty: none
   std::filesystem::path slice;           ///< PNG of it in the body's middle plane; empty: none
   std::optional<physics::Vec3> at = {};  ///< where distance and gradient are reported [m]
 };
@@ -30,9 +29,9 @@ struct FieldReport {
   double seconds = 0;  ///< that reading and building took [s]
 };
 
-/// Builds the field, or loads the body's saved one, and writes what is named, each file whole or not at all.
-/// Throws physics::Cancelled, nothing written, if the listener cancels; std::invalid_argument for outputs
-/// that would replace the body, geometry::ContentError for a body that cannot be used.
+/// Builds the field, or loads it from the body's cache, and writes the picture, if named, whole or not at
+/// all. Throws physics::Cancelled, nothing written, if the listener cancels; std::invalid_argument for a
+/// picture that would replace the body, geometry::ContentError for a body that cannot be used.
 FieldReport field(const FieldJob& job, Listener& listener);
 
 /// The report for programs, and what the command line prints.

@@ -18,7 +18,6 @@
 #include "geometry/rest/rest_metric.h"
 #include "io/base/bytes_file.h"
 #include "io/mesh/mesh_file.h"
-#include "io/scene/field_file.h"
 #include "io/scene/state_file.h"
 #include "jobs/base/gate.h"
 #include "jobs/base/read_inputs.h"
@@ -155,12 +154,10 @@ BodyCollider load_body(const io::SceneBody& body, const Context& context, double
   const std::filesystem::path cache = in_memory ? "" : body.cache;
   physics::TriangleMesh triangles = kept_body(cache, body.mesh, own, &outline);
   physics::ExactDistance exact(triangles);
-  const auto make_field = [&] {
-    const physics::DistanceFieldOptions options = with_finer_field(threaded(body.options), at_most, exact);
-    return kept_field(cache, triangles, options, context,
-                      [&] { return field_of(exact, options, body.mesh.string(), context); });
-  };
-  physics::DistanceField field = body.field.empty() ? make_field() : io::read_field(body.field, triangles);
+  const physics::DistanceFieldOptions options = with_finer_field(threaded(body.options), at_most, exact);
+  physics::DistanceField field = kept_field(cache, triangles, options, context, [&] {
+    return field_of(exact, options, body.mesh.string(), context);
+  });
   return {std::move(triangles), std::move(exact), std::move(field), outline};
 }
 

@@ -45,8 +45,7 @@ TEST_CASE("gate: a body in the wrong unit is asked about by the unit's name") {
 }
 
 TEST_CASE("gate: sdf takes the --body-unit that its message advises", "[long]") {
-  const ScratchDirectory scratch;
-  const std::string call = "sdf " + mannequin + " --unit mm --tolerance 0.01 -o " + (scratch / "b.field");
+  const std::string call = "sdf " + mannequin + " --unit mm --tolerance 0.01";
   const Run run = run_furrow(call);
   CHECK(run.exit_code == 3);
   CHECK_THAT(run.err, Contains("--body-unit"));

@@ -83,8 +83,7 @@ TEST_CASE("outputs: no output may replace what is read or another output, and pi
                (f / "cam.json") + " --save-camera " + (f / "cam.json"),
            "wrinkle " + f.wrinkled + " -o " + f.cm,
            "subdivide " + f.mesh + " --strokes " + f.lines + " -o " + f.lines,
-           "sdf " + f.mesh + " -o " + f.mesh,
-           "sdf " + f.mesh + " -o " + (f / "s.png") + " --picture " + (f / "s.png"),
+           "sdf " + f.mesh + " --picture " + f.mesh,
            "sdf " + f.mesh + " --picture " + (f / "s.field"),
            "transfer " + f.cm + " " + f.wrinkled + " -o " + f.wrinkled,
            "transfer " + f.cm + " " + f.wrinkled + " -o " + f.cm,
@@ -150,7 +149,7 @@ TEST_CASE("outputs: a file that furrow did not write is replaced with --replace 
       {"render " + f.mesh + small + " -o " + (f / "r2.png") + " --save-camera ", "cam.json"},
       {"doctor " + f.mesh + " --repair -o ", "d.obj"},
       {"strokes " + f.wrinkled + " --rename a=b -o ", "s.json"},
-      {"sdf " + ball + " --tolerance 0.01 -o ", "b.field"},
+      {"sdf " + ball + " --tolerance 0.01 --picture ", "b.png"},
   };
   for (const auto& [call, name] : calls) {
     write_text(f / name, foreign);

@@ -150,17 +150,24 @@ TEST_CASE("pipeline: render writes a picture, and a strip of several") {
   CHECK(read_text(sheet.scratch / "strip.png").rfind("\x89PNG", 0) == 0);
 }
 
-TEST_CASE("pipeline: a saved field serves another run, and is refused for another body") {
+TEST_CASE("pipeline: a field that sdf keeps serves another run, and another body gets its own") {
   Sheet sheet;
   const std::string body = sheet.scratch / "tetra.obj", other = sheet.scratch / "other.obj",
-                    field = sheet.scratch / "tetra.field";
+                    cache = sheet.scratch / "cache";
+  const auto fields = [&] {
+    return std::ranges::count_if(std::filesystem::directory_iterator(cache),
+                                 [](const auto& file) { return file.path().extension() == ".field"; });
+  };
   write_text(body, "v 0 -1 0\nv 1 -1 0\nv 0 -1 -1\nv 0 -0.1 0\nf 1 2 4\nf 2 3 4\nf 3 1 4\nf 1 3 2\n");
   write_text(other, "v 0 -2 0\nv 1 -1 0\nv 0 -1 -1\nv 0 -0.1 0\nf 1 2 4\nf 2 3 4\nf 3 1 4\nf 1 3 2\n");
-  REQUIRE(run_furrow("sdf -q " + body + " -o " + field).exit_code == 0);
-  const std::string call = "simulate -q --seconds 0.01 " + sheet.mesh + " --field " + field + " -o " +
+  REQUIRE(run_furrow("sdf -q " + body + " --cache " + cache).exit_code == 0);
+  CHECK(fields() == 1);
+  const std::string call = "simulate -q --seconds 0.01 " + sheet.mesh + " --cache " + cache + " -o " +
                            (sheet.scratch / "o.ply") + " --body ";
   CHECK(run_furrow(call + body).exit_code == 0);
-  CHECK(run_furrow(call + other).exit_code == 3);
+  CHECK(fields() == 1);
+  CHECK(run_furrow(call + other).exit_code == 0);
+  CHECK(fields() == 2);
 }
 
 TEST_CASE(
@@ -243,8 +250,8 @@ TEST_CASE("pipeline: what cannot be written is said before the work is done") {
       2);
   CHECK(run_furrow("simulate --seconds 100000 " + sheet.mesh + " -o " + (sheet.scratch / "no/o.ply"))
             .exit_code == 1);
-  CHECK(run_furrow("simulate --field none.field " + sheet.mesh + " -o " + (sheet.scratch / "o.ply"))
-            .exit_code == 2);
+  CHECK(run_furrow("simulate --body none.obj " + sheet.mesh + " -o " + (sheet.scratch / "o.ply")).exit_code ==
+        2);
   const std::string err = sheet.scratch / "err";
   run_furrow("smooth " + sheet.mesh + " -o - >/dev/full 2>" + err + "; true");
   CHECK(read_text(err).find("error: standard output") != std::string::npos);

@@ -91,7 +91,7 @@ double pattern_height(const geometry::Mesh& worn, const geometry::Mesh& pattern,
 
 TEST_CASE("drape: a size stays the size that it was cut, refined or not, at chest and waist", "[release]") {
   ScratchDirectory scratch;
-  const std::string shirt = scratch / "shirt.obj", field = scratch / "body.sdf",
+  const std::string shirt = scratch / "shirt.obj", cache = scratch / "cache",
                     mannequin = (source_dir() / "meshes/mannequin.obj").string(),
                     body = " --body " + mannequin + " ";
   io::MeshFile coarse = io::read_mesh(source_dir() / "meshes/shirt.obj");
@@ -99,7 +99,7 @@ TEST_CASE("drape: a size stays the size that it was cut, refined or not, at ches
   REQUIRE(coarse.mesh->is_valid());
   REQUIRE(coarse.mesh->number_of_vertices() < 2500);
   io::write_mesh(shirt, coarse);
-  REQUIRE(run_furrow("sdf " + mannequin + " -o " + field + " -q").exit_code == 0);
+  REQUIRE(run_furrow("sdf " + mannequin + " --cache " + cache + " -q").exit_code == 0);
   double ease[2][2][3] = {}, cut_girth[2][3] = {}, chest = 0;
   for (int size = 0; size < 3; ++size) {  // 5 % narrower, as it is, 5 % wider
     io::MeshFile made = coarse;
@@ -113,7 +113,7 @@ TEST_CASE("drape: a size stays the size that it was cut, refined or not, at ches
     REQUIRE(run_furrow("fit " + shirt + " --rest-shape " + cut + body + "-o " + sized + " -q").exit_code ==
             0);
     for (int refined = 0; refined < 2; ++refined) {
-      const json r = report_of_run("drape " + sized + body + "--field " + field + " --subdivide " +
+      const json r = report_of_run("drape " + sized + body + "--cache " + cache + " --subdivide " +
                                    std::to_string(refined) + " -o " + (scratch / "worn.ply"));
       for (int section = 0; section < 2; ++section) {
         const json& e = r["fit"]["ease"][std::size_t(section)];

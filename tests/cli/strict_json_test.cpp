@@ -61,7 +61,7 @@ TEST_CASE("strict JSON: every command's report is read, and is as its schema say
   CHECK(report_of("keep " + (scratch / "w.ply") + " --pin-loop top --fabric denim --run 0.05 --gust 0" +
                   out("kept.ply") + " --save-state " + (scratch / "ks.ply"))["written"] ==
         json::array({scratch / "kept.ply", scratch / "ks.ply"}));
-  report_of("sdf" + body.substr(7) + " --tolerance 0.01 --at 0,1,0.3" + out("body.sdf"));
+  report_of("sdf" + body.substr(7) + " --tolerance 0.01 --at 0,1,0.3 --cache " + (scratch / "cache"));
   report_of("drape " + skirt + body + " --subdivide 0 --band top=0.95" + out("worn.ply"));
   report_of("drape " + skirt + body + " --subdivide 0 --made-for " + source_file("meshes/mannequin.obj") +
             out("brought.ply"));

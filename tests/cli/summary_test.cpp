@@ -60,7 +60,8 @@ TEST_CASE("report: ten lines at most for people, with the files written, and all
         {"simulate " + skirt + body + " --pin-loop top --seconds 0.005" + out("s.ply"), "s.ply"},
         {"strokes " + strokes + out("l.json"), "l.json"},
         {"transfer " + sheet + " " + (scratch / "w.ply") + out("t.obj"), "t.obj"},
-        {"sdf " + source_file("meshes/mannequin.obj") + " --tolerance 0.02" + out("b.field"), "b.field"},
+        {"sdf " + source_file("meshes/mannequin.obj") + " --tolerance 0.02 --picture " + (scratch / "b.png"),
+         "b.png"},
         {"render " + sheet + " --size 100,100 --quality draft" + out("p.png"), "p.png"},
         {"chart " + source_file("scenes/validation/free_fall.toml") + " --set simulation.seconds=0.02",
          ""}}) {

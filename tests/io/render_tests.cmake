@@ -9,6 +9,7 @@ furrow_add_tests(render io LIBRARIES furrow::io SOURCES
   picture/prepared_scene_test.cpp
   picture/render_errors_test.cpp
   picture/render_scene_test.cpp
+  picture/render_slice_test.cpp
   picture/render_test.cpp
   picture/render_weave_test.cpp
   picture/strip_test.cpp

@@ -32,7 +32,6 @@ furrow_add_tests(io io LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURCES
   stroke/stroke_file_test.cpp
   scene/batch_plan_test.cpp
   scene/equivalent_flags_test.cpp
-  scene/field_file_test.cpp
   scene/garment_list_test.cpp
   scene/scene_file_test.cpp
   scene/settings_schema_test.cpp

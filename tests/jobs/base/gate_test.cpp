@@ -151,7 +151,7 @@ TEST_CASE("gate: a field that needs more than the limit is refused with its body
   job.body.mesh = folder / "ball.obj";
   job.body.options.tolerance = 0.001;
   job.body.options.most_samples = 5000;
-  job.output = folder / "ball.field";
+  job.slice = folder / "ball.png";
   jobs::Listener nobody;
   CHECK_THROWS_WITH(jobs::field(job, nobody), Catch::StartsWith((folder / "ball.obj").string()) &&
                                                   Contains("raise the tolerance to") && Contains("`force`"));
@@ -159,7 +159,7 @@ TEST_CASE("gate: a field that needs more than the limit is refused with its body
   Generous generous;
   jobs::field(job, generous);
   CHECK(generous.demands.size() == 1);
-  CHECK(tests::names_in(folder).count("ball.field"));
+  CHECK(tests::names_in(folder).count("ball.png"));
 }
 
 TEST_CASE("gate: a refinement that no memory holds is refused") {

@@ -14,7 +14,6 @@
 #include "io/base/own_mark.h"
 #include "io/picture/baked_maps.h"
 #include "io/picture/png_file.h"
-#include "io/scene/field_file.h"
 #include "io/stroke/stroke_file.h"
 #include "jobs/base/output_checks.h"
 #include "jobs/mesh/smooth.h"
@@ -100,7 +99,7 @@ TEST_CASE("own_output: a mesh of every format that is written is known again") {
   CHECK(jobs::is_own_output(folder / "wrinkled.ply"));
 }
 
-TEST_CASE("own_output: animations, fields, pictures and maps are known again") {
+TEST_CASE("own_output: animations, pictures and maps are known again") {
   const fs::path folder = tests::empty_folder("own_others");
   const io::MeshFile file = some_mesh();
   for (const char* name : {"a.pc2", "a.mdd", "a.glb"}) {
@@ -110,9 +109,6 @@ TEST_CASE("own_output: animations, fields, pictures and maps are known again") {
     INFO(name);
     CHECK(jobs::is_own_output(folder / name));
   }
-  physics::TriangleMesh ball = bridge::to_triangle_mesh(geometry::repair_body(tests::icosphere(2)));
-  io::write_field(folder / "ball.field", physics::DistanceField::build(ball, {}), ball);
-  CHECK(jobs::is_own_output(folder / "ball.field"));
   for (const io::Image& image : {grey(3, 2), grey(300, 200)}) {
     io::write_png(folder / "a.png", image);
     CHECK(jobs::is_own_output(folder / "a.png"));

@@ -20,15 +20,12 @@ TEST_CASE("field: it keeps to its tolerance, and a cancelled or refused job leav
   jobs::FieldJob job;
   job.body.mesh = folder / "ball.obj";
   job.body.options.tolerance = 0.002;
-  job.output = folder / "ball.field";
   job.slice = folder / "ball.png";
   job.at = physics::Vec3(0, 0.15, 0);
   tests::Recorder recorder(1);
   CHECK_THROWS_AS(jobs::field(job, recorder), physics::Cancelled);
   jobs::FieldJob wrong = job;
-  wrong.output = folder / "ball.obj";
-  CHECK_THROWS_AS(jobs::field(wrong, recorder), std::invalid_argument);
-  wrong.output = "-";
+  wrong.slice = folder / "ball.obj";
   CHECK_THROWS_AS(jobs::field(wrong, recorder), std::invalid_argument);
   CHECK(tests::names_in(folder) == std::set<std::string>{"ball.obj"});
   jobs::Listener nobody;
@@ -36,5 +33,5 @@ TEST_CASE("field: it keeps to its tolerance, and a cancelled or refused job leav
   CHECK(report.errors.points > 1000);
   CHECK(report.errors.largest < 0.004);
   CHECK(to_json(report).at("at").at("distance").get<double>() == Approx(0.05).margin(0.004));
-  CHECK(tests::names_in(folder) == std::set<std::string>{"ball.field", "ball.obj", "ball.png"});
+  CHECK(tests::names_in(folder) == std::set<std::string>{"ball.obj", "ball.png"});
 }
