@@ -7,7 +7,8 @@ set(may_include_physics physics)
 set(may_include_bridge bridge geometry physics)
 set(may_include_io io bridge geometry physics)
 set(may_include_jobs jobs io bridge geometry physics)
-set(may_include_studio studio jobs)
+set(may_include_studio studio jobs io)
+set(only_studio_io base/field_words)  # and of that no more
 set(may_include_cli cli studio jobs io bridge geometry physics)
 set(may_include_python python jobs io bridge geometry physics)
 # The order of rooms: a room may include itself and those of lines above it. Rooms of one line do not know each other.
