@@ -11,7 +11,7 @@ namespace {
 constexpr std::chrono::milliseconds between_calls{50};
 
 /// As one writes it: numbers as they are, words in quotes.
-std::string literal_of(const std::string& value) {
+std::string as_written(const std::string& value) {
   char* end = nullptr;
   std::strtod(value.c_str(), &end);
   return *end == 0 ? value : "\"" + value + "\"";
@@ -22,9 +22,9 @@ std::string keyword_words(const io::NamedField& named) {
   std::string field = named.field;
   if (field.find('.') != field.npos)
     field =
-        named.value.empty() ? "settings" : "settings={\"" + field + "\": " + literal_of(named.value) + "}";
+        named.value.empty() ? "settings" : "settings={\"" + field + "\": " + as_written(named.value) + "}";
   else if (!named.value.empty())
-    field += "=" + literal_of(named.value);
+    field += "=" + as_written(named.value);
   if (job.empty() || field.empty()) return job + field;
   return job + "(" + field + (named.value.empty() ? "=True" : "") + ")";
 }
