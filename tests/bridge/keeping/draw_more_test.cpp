@@ -212,7 +212,7 @@ TEST_CASE("draw_more: of bent cloth the forces of its plate are taken off, as th
     physics::SimulateState state;
     auto list = strokes(0.01);
     for (geometry::Stroke& s : list)
-      for (geometry::Point& p : s.points) p = {p.x(), p.y(), 0.05 * std::sin(4 * p.x()) * p.y()};
+      for (auto& p : s.points) p = {p.x(), p.y(), 0.05 * std::sin(4 * p.x()) * p.y()};
     draw_more(mesh, state, list, o);
     const std::vector<Vec3> after = all_forces();
     REQUIRE(state.compensation.force.size() == after.size());
@@ -362,7 +362,7 @@ TEST_CASE("draw_more: drawing that fails leaves cloth and state as they were") {
   physics::SimulateState state;
   state.planned = true;
   auto far = strokes(0);
-  for (geometry::Point& p : far[1].points) p = {p.x(), p.y(), 3};
+  for (auto& p : far[1].points) p = {p.x(), p.y(), 3};
   CHECK_THROWS(draw_more(mesh, state, far, o));
   o.fade = 0;
   CHECK_THROWS_AS(draw_more(mesh, state, strokes(0), o), std::invalid_argument);

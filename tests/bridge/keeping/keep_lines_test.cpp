@@ -438,8 +438,8 @@ TEST_CASE("keep_lines: a shape that stands like a pencil on its tip is pushed be
   Hung standing(1e-3);
   physics::Cloth cloth = bridge::gather(standing.mesh, standing.material);
   std::vector<int> bottom;
-  for (const geometry::Vertex v : standing.mesh->vertices())
-    if (standing.mesh->point(v).y() < 1e-4) bottom.push_back(int(v));
+  for (const geometry::Vertex v : standing.mesh.vertices())
+    if (standing.mesh.point(v).y() < 1e-4) bottom.push_back(int(v));
   physics::pin(cloth.particles, bottom);
   physics::balance_rigidly(cloth, -gravity);
   REQUIRE(physics::prestress(cloth).residual < 1e-8);

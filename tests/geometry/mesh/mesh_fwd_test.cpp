@@ -8,7 +8,7 @@
 
 #include "geometry/mesh/mesh.h"
 #include "geometry/mesh/property_names.h"
-#include "test_meshes.h"
+#include "tests/test_meshes.h"
 
 using namespace furrow;
 using namespace furrow::geometry;

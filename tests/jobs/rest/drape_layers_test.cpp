@@ -11,6 +11,7 @@
 #include "tests/jobs/job_folders.h"
 #include "tests/jobs/recorder.h"
 #include "tests/test_meshes.h"
+#include "tests/test_paths.h"
 
 using namespace furrow;
 namespace fs = std::filesystem;
