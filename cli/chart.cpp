@@ -22,8 +22,8 @@ struct ChartArguments : CommonArguments {
 
 io::TomlDocument settings(const ChartArguments& a) {
   io::TomlDocument document = settings_of(a.in, "", std::nullopt);
-  if (a.unit) io::set_value(document, "unit", *a.unit, "--unit");
-  if (a.up) io::set_value(document, "up", *a.up, "--up");
+  if (a.unit) io::set_value(document, "unit", *a.unit, "`unit`");
+  if (a.up) io::set_value(document, "up", *a.up, "`up`");
   for (const char* list : {"lines", "pins"}) io::make_list(document, list);
   apply_sets(document, a.sets);
   for (const char* list : {"lines", "pins"}) io::make_list(document, list);

@@ -38,7 +38,7 @@ void check_accuracy(const SimulateArguments& a, const SimulateJob& job) {
   const io::TomlDocument& settings = job.scene.settings;
   const Json simulation = settings.root->value("simulation", Json::object());
   for (const std::string key : {"integrator", "dt", "sweeps"})
-    if (simulation.contains(key) && settings.place("simulation." + key).rfind("--", 0) == 0)
+    if (simulation.contains(key) && settings.place("simulation." + key).starts_with('`'))
       throw UsageError("--accuracy " + accuracy + " chooses integrator and step, and " +
                        settings.place("simulation." + key) + " names one; leave out one of them");
 }

@@ -100,7 +100,7 @@ SceneInput surroundings(const WrinkleArguments& a, const WrinkleJob& job) {
   const bool has_fabric = document.root->value("material", Json::object()).contains("preset");
   if (a.density && (a.typed->count("--density") || !has_fabric))
     io::set_value(document, "material.density", *a.density, "--density");
-  if (a.rest == "keep") io::set_value(document, "garment.rest", "keep", "--rest keep");
+  if (a.rest == "keep") io::set_value(document, "garment.rest", "keep", "`rest=keep`");
   return {document, job.state_path.parent_path()};
 }
 

@@ -251,7 +251,7 @@ TEST_CASE("pipeline: what cannot be written is said before the work is done") {
   CHECK(run_furrow("simulate --seconds 100000 " + sheet.mesh + " -o " + (sheet.scratch / "no/o.ply"))
             .exit_code == 1);
   CHECK(run_furrow("simulate --body none.obj " + sheet.mesh + " -o " + (sheet.scratch / "o.ply")).exit_code ==
-        2);
+        3);
   const std::string err = sheet.scratch / "err";
   run_furrow("smooth " + sheet.mesh + " -o - >/dev/full 2>" + err + "; true");
   CHECK(read_text(err).find("error: standard output") != std::string::npos);
