@@ -217,7 +217,7 @@ TEST_CASE("doctor: a garment whose file has another axis up than its body's is t
 TEST_CASE("doctor: garment and body in two units, or exchanged, are asked about by the option that mends it",
           "[long]") {
   const std::string small = drape_refused(scaled(shirt(), 0.01), mannequin());
-  CHECK(small.find("`body_unit`") != std::string::npos);
+  CHECK(small.find("`body_unit=") != std::string::npos);
   const jobs::DoctorReport larger = examine(scaled(shirt(), 10), scaled(mannequin(), 0.06));
   REQUIRE(find(larger.found, "two_units"));
   CHECK(find(larger.found, "two_units")->help == "`unit=cm` `body_unit=m`");
