@@ -80,7 +80,7 @@ io::TomlDocument document_of(py::handle garment, CalledScene& scene, Memory& mem
   if (garment.is_none()) throw std::invalid_argument("name a garment, a scene (.toml), or state");
   if (py::isinstance<py::dict>(garment)) {
     io::TomlDocument document;
-    set_all(to_json({"scene", garment}, memory), "", "scene", document);
+    set_all(to_json({"scene", garment}, memory), "", "`scene`", document);
     return document;
   }
   if (py::isinstance<HeldMesh>(garment))
@@ -166,7 +166,7 @@ void Call::apply_settings(unsigned subcommand, io::TomlDocument& document, Memor
     if (name != "settings") continue;
     if (!py::isinstance<py::dict>(given)) Value{name, given}.fail("a dict of settings");
     used_.insert(name);
-    set_all(to_json({name, given}, memory), "", "settings", document);
+    set_all(to_json({name, given}, memory), "", "`settings`", document);
   }
   make_lists(document);
 }

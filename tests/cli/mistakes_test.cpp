@@ -123,7 +123,7 @@ const Mistake mistakes[] = {
      "error: {d}/pointer.obj: is a pointer of Git LFS, not the file itself; git lfs pull brings that"},
     {"an integrator misspelt", "simulate {m}/sheet.obj --integrator leapfrogg -o {d}/o.ply", 2,
      "error: --integrator: simulation.integrator = \"leapfrogg\" is none of auto, leapfrog, rk4, xpbd, "
-     " implicit, tr-bdf2; did you mean leapfrog?"},
+     "implicit, tr-bdf2; did you mean leapfrog?"},
     {"an integrator that left", "simulate {m}/sheet.obj --integrator euler -o {d}/o.ply", 2,
      "error: --integrator: simulation.integrator = \"euler\" diverges at any step and is no choice any more; "
      "write leapfrog, which costs as much a step"},
