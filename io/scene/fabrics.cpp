@@ -28,9 +28,10 @@ constexpr const char* most_ours = "all but the rigidity and the bending friction
 constexpr const char* petrak =
     "KES-FB and drape coefficient: Petrak et al., Sustainability 2025, 17, 1388 (CC BY 4.0)";
 constexpr const char* bias_ours = "rigidity at 45 degrees, Poisson's ratio, damping, friction";
-// With threads, of Wang et al.: C of the first sample, doubled, entries below 0 as 0, inverted for strips;
-// bending rows as warp, bias, weft. ARCSim reads them by the direction of the crease, a quarter turn away.
 
+// Of Wang et al.: C of the first sample, doubled, entries below 0 as 0, inverted for strips; bending rows as
+// warp, bias, weft. ARCSim reads them by the direction of the crease, a quarter turn away.
+// Stretch along warp and weft, shear; Poisson's ratio; rigidity along warp, bias, weft; drape coefficient.
 constexpr FabricThreads black_denim{410.5, 2027, 106.8, 0.01009, 6.42e-05, 7.338e-05, 9.695e-05, 0};
 constexpr FabricThreads ivory_rib{85.74, 130.3, 166.4, 0, 4.624e-05, 3.002e-05, 3.224e-05, 0};
 constexpr FabricThreads brown_ribbon{211.2, 341.3, 60.5, 0.4331, 0.0001171, 8.751e-05, 5.977e-05, 0};
@@ -45,6 +46,7 @@ constexpr FabricThreads viscose_twill{403.4, 401.8, 61, 0, 2.97e-06, 2.662e-06, 
 constexpr FabricThreads elastane_plain{407.2, 415, 57, 0, 3.22e-06, 3.527e-06, 3.88e-06, 0.443};
 constexpr FabricThreads cotton_twill{473.9, 404.7, 126, 0, 7.43e-06, 5.087e-06, 3.7e-06, 0.549};
 
+// Density, stretch, shear, rigidity, thickness, friction; source, what is ours; threads, bending friction.
 constexpr Fabric all_fabrics[] = {
     {"cotton", 0.12, 1000, 60, 1.157e-5, 0.0003, 0.4, matsudaira, most_ours, {}, 6.08e-4},
     {"wool", 0.18, 600, 60, 6.57e-6, 0.0005, 0.4, matsudaira, most_ours, {}, 1.62e-4},

@@ -33,9 +33,6 @@ using Json = nlohmann::ordered_json;
 constexpr const char* prefix = "furrow state ";
 bool is_state(const std::string& comment) { return comment.rfind(prefix, 0) == 0; }
 
-/// JSON knows neither infinity nor NaN: null is infinity (a limit without springs, a fade that never ends).
-constexpr double null_number = std::numeric_limits<double>::infinity();
-
 // How a value stands in JSON: put() and get() of each type that is no number, text or list of such.
 
 template <class T>
@@ -46,7 +43,6 @@ template <class T>
 void get(const Json& json, T& value) {
   value = json.get<T>();
 }
-void get(const Json& json, double& value) { value = json.is_null() ? null_number : json.get<double>(); }
 
 void put(Json& json, const std::vector<Vec3>& points) {
   json = Json::array();
@@ -121,6 +117,8 @@ struct FieldWriter {
   void operator()(const char* key, const T& value, bool is_set) const {
     if (is_set) put(json[key], value);
   }
+  /// A number that may be infinite (a limit without springs, a fade that never ends): null in JSON.
+  void limit(const char* key, double value) const { json[key] = std::isinf(value) ? Json() : Json(value); }
 };
 
 /// Gets the same fields from JSON.
@@ -133,6 +131,10 @@ struct FieldReader {
   template <class T>
   void operator()(const char* key, T& value, bool) const {
     if (json.contains(key)) get(json.at(key), value);
+  }
+  void limit(const char* key, double& value) const {
+    const Json& found = json.at(key);
+    value = found.is_null() ? std::numeric_limits<double>::infinity() : found.get<double>();
   }
 };
 
@@ -154,8 +156,8 @@ void list_fields(const Fields& field, Totals& t) {
   field("cut_moves", t.cut_moves);
   field("limit_estimates", t.limit_estimates);
   field("frames_built", t.frames_built);
-  field("dt_smallest", t.dt_smallest);
-  field("dt_limit_smallest", t.dt_limit_smallest);
+  field.limit("dt_smallest", t.dt_smallest);
+  field.limit("dt_limit_smallest", t.dt_limit_smallest);
 }
 void put(Json& json, const physics::SimulateTotals& totals) { list_fields(FieldWriter{json}, totals); }
 void get(const Json& json, physics::SimulateTotals& totals) { list_fields(FieldReader{json}, totals); }
@@ -181,17 +183,17 @@ void list_state(const Fields& field, State& saved) {
   field("planned", s.planned);
   field("end", s.end);
   field("dt", s.dt);
-  field("dt_longest", s.dt_longest);
+  field.limit("dt_longest", s.dt_longest);
   field("steps_left", s.steps_left);
   field("estimated_at", s.estimated_at);
-  field("dt_limit", s.dt_limit);
+  field.limit("dt_limit", s.dt_limit);
   field("strain_at_estimate", s.strain_at_estimate);
   field("cloth", s.cloth);
   field("body", saved.body);
   field("body_travel", s.body_travel);
   field("homes", s.homes);
   field("force_jump_start", s.compensation.start);
-  field("force_jump_fade", s.compensation.time_constant);
+  field.limit("force_jump_fade", s.compensation.time_constant);
   field("totals", s.totals);
   field("pins", saved.pins);
   field("lines_drawn", saved.lines_drawn);

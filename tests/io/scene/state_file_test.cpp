@@ -194,6 +194,7 @@ TEST_CASE("state_file: damaged states are refused") {
   CHECK_THROWS_AS(io::parse_state(bytes.substr(0, bytes.size() / 2), "s"), geometry::ContentError);
   CHECK_THROWS_AS(io::parse_state(changed("\"time\":", "\"tame\":"), "s"), geometry::ContentError);
   CHECK_THROWS_AS(io::parse_state(changed("\"planned\":true", "\"planned\":7"), "s"), geometry::ContentError);
+  CHECK_THROWS_AS(io::parse_state(changed("\"end\":", "\"end\":null,\"was\":"), "s"), geometry::ContentError);
   CHECK_THROWS_AS(io::parse_state(changed("furrow state {", "furrow state ["), "s"), geometry::ContentError);
   CHECK_THROWS_AS(io::parse_state(changed("\"version\":3", "\"version\":4"), "s"), geometry::ContentError);
   io::SavedState wrong = state();
