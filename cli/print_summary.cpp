@@ -329,6 +329,20 @@ Lines smooth_lines(const Json& report) {
           counted(count_of(report, "iterations"), "pair") + " of steps"};
 }
 
+/// What lines keep of their height, and how they are pressed.
+void add_heights(Lines& lines, const Json& report) {
+  constexpr std::size_t most = 4;
+  std::string kept;
+  std::size_t known = 0;
+  for (const Json& line : list_of(report, "lines")) {
+    if (!std::isfinite(value_of(line, "kept")) || ++known > most) continue;
+    kept += (kept.empty() ? "" : ", ") + name_of_line(line) + " " + per_cent(value_of(line, "kept"));
+    if (line.contains("press")) kept += " pressed x" + number(value_of(line, "press"));
+  }
+  if (known > most) kept += " and " + std::to_string(known - most) + " more";
+  if (!kept.empty()) lines.push_back("lines keep of their height: " + kept);
+}
+
 Lines wrinkle_lines(const Json& report) {
   const Json& drawn = list_of(report, "lines");
   Lines lines{counted(static_cast<long long>(drawn.size()), "line") + " drawn, " +
@@ -351,9 +365,11 @@ Lines wrinkle_lines(const Json& report) {
   if (const Json& kept = table_of(report, "kept"); !kept.empty())
     lines.push_back(balance_of(kept, "kept: ", "the drawn shape"));
   add_crossings(lines, report);
-  if (const Json& rest = table_of(report, "at_rest"); !rest.empty())
+  if (const Json& rest = table_of(report, "at_rest"); !rest.empty()) {
     lines.push_back("then " + text_of(rest, "outcome") + " (" + number(value_of(rest, "seconds")) +
                     " s); angle defect " + number(value_of(rest, "angle_defect")) + " rad/m^2");
+    add_heights(lines, rest);
+  }
   return lines;
 }
 
@@ -466,15 +482,7 @@ Lines simulate_lines(const Json& report) {
     lines.push_back("body: gap " + length(report, "contact_gap") + ", " +
                     std::to_string(count_of(report, "contacts")) + " vertices in contact, " +
                     std::to_string(count_of(report, "vertices_inside")) + " inside");
-  std::string kept;
-  std::size_t told = 0, known = 0;
-  for (const Json& line : list_of(report, "lines")) {
-    if (!std::isfinite(value_of(line, "kept"))) continue;
-    if (++known > 4) continue;
-    kept += (told++ ? ", " : "") + name_of_line(line) + " " + per_cent(value_of(line, "kept"));
-  }
-  if (known > told) kept += " and " + std::to_string(known - told) + " more";
-  if (!kept.empty()) lines.push_back("lines keep of their height: " + kept);
+  add_heights(lines, report);
   if (const std::string lost = losses_of(table_of(report, "balance")); !lost.empty()) lines.push_back(lost);
   if (const Json& choice = table_of(report, "choice"); !choice.empty())
     lines.push_back(text_of(choice, "says"));

@@ -100,7 +100,7 @@ SceneInput surroundings(const WrinkleArguments& a, const WrinkleJob& job) {
   const bool has_fabric = document.root->value("material", Json::object()).contains("preset");
   if (a.density && (a.typed->count("--density") || !has_fabric))
     io::set_value(document, "material.density", *a.density, "--density");
-  if (a.rest == "keep") io::set_value(document, "garment.rest", "keep", "`rest=keep`");
+  if (a.rest == "keep" && !a.settle) io::set_value(document, "garment.rest", "keep", "`rest=keep`");
   return {document, job.state_path.parent_path()};
 }
 
@@ -123,8 +123,9 @@ WrinkleJob job_of(WrinkleArguments& a) {
   job.options = to_options(a);
   job.density = a.density;
   job.max_weights = a.max_weights;
-  if (a.rest == "keep") job.keep = surroundings(a, job);
+  if (a.rest == "keep" && !a.settle) job.keep = surroundings(a, job);
   if (a.settle) job.settle = surroundings(a, job);
+  job.hold = a.rest == "keep" || (a.rest == "drawn" && !a.typed->count("--rest"));
   job.made_for = a.made_for;
   job.smoothed = a.smoothed;
   if (!a.subdivide.empty() && a.subdivide != "auto") job.subdivide = std::stoi(a.subdivide);
@@ -208,7 +209,8 @@ void add_wrinkle(CLI::App& app, int& exit_code) {
   sub->add_flag(
       "--settle", a->settle,
       "let what is drawn come to rest, as furrow drape does: on --body, on pins or on both, in --fabric "
-      "(cotton); -o is the garment at rest");
+      "(cotton), with lines that last: what gives way is pressed (--rest drawn: as it falls); -o is the "
+      "garment at rest");
   sub->add_option(
          "--subdivide", a->subdivide,
          "with --settle: refine the garment so many times (Loop) before its lines are drawn, 0 to 4; auto "

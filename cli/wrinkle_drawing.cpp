@@ -47,10 +47,12 @@ void add_drawing_options(CLI::App& sub, WrinkleArguments& a) {
          "that would spoil the mesh are refused; paper: the paper's plain rule")
       ->check(CLI::IsMember({"fold", "safe", "paper"}))
       ->capture_default_str();
-  sub.add_option("--rest", a.rest,
-                 "drawn: a line adds cloth, rest angles stay; copied: they turn, too; flat: the rest stays "
-                 "as it was; "
-                 "keep: the drawn shape bears its weight (needs --fabric or hinges; docs/keep.md)")
+  sub.add_option(
+         "--rest", a.rest,
+         "drawn: a line adds cloth, rest angles stay; copied: they turn, too; flat: the rest stays "
+         "as it was; "
+         "keep: the drawn shape bears its weight (needs --fabric or hinges; docs/keep.md), the default "
+         "with --settle")
       ->check(CLI::IsMember({"drawn", "flat", "copied", "keep"}))
       ->capture_default_str();
   begin_group(sub, group::lines, Audience::few);

@@ -92,7 +92,9 @@ const Keywords<WrinkleCall>& wrinkle_rows() {
             "inserted", "also write the mesh after insertion and before smoothing",
             [](auto& c) -> auto& { return c.job.inserted; }),
         row<Call>(
-            "settle", "let what is drawn come to rest, as drape does",
+            "settle",
+            "let what is drawn come to rest, as drape does, with lines that last; rest \"drawn\": as it "
+            "falls",
             [](auto& c) -> auto& { return c.settle; }),
         row<Call>(
             "made_for",
@@ -157,7 +159,7 @@ jobs::SceneInput surroundings(const WrinkleCall& c, py::handle garment, Call& ca
     jobs::take_recorded_material(scene.settings, *path);
   }
   if (c.job.density) io::set_value(scene.settings, "material.density", *c.job.density, "`density`");
-  if (c.keep) io::set_value(scene.settings, "garment.rest", "keep", "`rest=keep`");
+  if (c.keep && !c.settle) io::set_value(scene.settings, "garment.rest", "keep", "`rest=keep`");
   return scene;
 }
 
@@ -174,7 +176,8 @@ WrinkleCall called(const py::list& inputs, Call& call) {
     take(Value{"garment", inputs[0]}, c.job.garment);
   }
   take(Value{"strokes", inputs[1]}, c.job.strokes);
-  if (c.keep) c.job.keep = surroundings(c, inputs[0], call);
+  if (c.keep && !c.settle) c.job.keep = surroundings(c, inputs[0], call);
+  c.job.hold = c.keep || !call.has("rest");
   if (c.settle) c.job.settle = surroundings(c, inputs[0], call);
   return c;
 }

@@ -13,7 +13,6 @@
 #include "bridge/keeping/keep_verdicts.h"
 #include "bridge/keeping/line_help.h"
 #include "bridge/keeping/try_statics.h"
-#include "geometry/fold/line_region.h"
 #include "geometry/mesh/preconditions.h"
 #include "geometry/mesh/property_names.h"
 #include "physics/base/progress.h"
@@ -55,30 +54,6 @@ class Keeper {
   Keeper(const geometry::Mesh& mesh, const physics::Cloth& start, const physics::World& world,
          const KeepOptions& options, LineMeter& meter, const KeepObserver& go_on)
       : mesh_(mesh), start_(start), world_(world), o_(options), meter_(meter), go_on_(go_on) {}
-
-  /// The lines without help.
-  KeepPlan plan() const {
-    const auto id = geometry::find_map(mesh_, geometry::attribute::line);
-    const std::vector<double> drawn = meter_.heights(start_.particles),
-                              lengths = geometry::lengths_before_lines(mesh_);
-    const auto of_line = [](const std::vector<double>& list, int line, double missing) {
-      return std::size_t(line) < list.size() ? list[line] : missing;
-    };
-    KeepPlan plan;
-    for (std::size_t i = 0; i < drawn.size(); ++i) {
-      std::vector<geometry::Vertex> vertices;
-      for (const geometry::Vertex v : mesh_.vertices())
-        if ((*id)[v] == meter_.lines()[i]) vertices.push_back(v);
-      HelpedLine line{meter_.lines()[i], {}, drawn[i]};
-      line.press = of_line(o_.line_presses, line.id, 1);
-      const double width = of_line(o_.line_widths, line.id, NAN);
-      line.width = width > 0 ? width : 0;
-      for (const geometry::Vertex v : geometry::line_region(mesh_, vertices, width, lengths))
-        line.patch.push_back(int(v));
-      plan.lines.push_back(std::move(line));
-    }
-    return plan;
-  }
 
   TriedPlan found_by(const KeepPlan& plan, Tally& tally) const {
     KeepOutcome outcome = solve(plan, tally);
@@ -374,7 +349,7 @@ KeepReport keep_lines(geometry::Mesh& mesh, physics::Cloth& cloth, const physics
 
   const Keeper keeper(mesh, start, world, o, meter, go_on);
   Tally tally;
-  TriedPlan found = keeper.help_by_stiffness(keeper.plan(), tally);
+  TriedPlan found = keeper.help_by_stiffness({helped_lines(mesh, start.particles, meter, o)}, tally);
   if (!tally.interrupted) found = keeper.help_all(std::move(found), tally);
   if (!tally.interrupted) keeper.try_named_gusts(found, tally);
   if (!tally.interrupted && o.height_trials > 0 &&

@@ -2,13 +2,38 @@
 #include "bridge/keeping/line_help.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "geometry/fold/line_region.h"
 #include "geometry/mesh/property_names.h"
 #include "physics/cloth/struts.h"
 #include "physics/plate/plate_bending.h"
 #include "physics/plate/press.h"
 
 namespace furrow::bridge {
+
+std::vector<HelpedLine> helped_lines(const geometry::Mesh& mesh, const physics::Particles& particles,
+                                     LineMeter& meter, const KeepOptions& o) {
+  const auto id = geometry::find_map(mesh, geometry::attribute::line);
+  const std::vector<double> drawn = meter.heights(particles), lengths = geometry::lengths_before_lines(mesh);
+  const auto of_line = [](const std::vector<double>& list, int line, double missing) {
+    return std::size_t(line) < list.size() ? list[std::size_t(line)] : missing;
+  };
+  std::vector<HelpedLine> lines;
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    std::vector<geometry::Vertex> vertices;
+    for (const geometry::Vertex v : mesh.vertices())
+      if ((*id)[v] == meter.lines()[i]) vertices.push_back(v);
+    HelpedLine line{meter.lines()[i], {}, drawn[i]};
+    line.press = of_line(o.line_presses, line.id, 1);
+    const double width = of_line(o.line_widths, line.id, NAN);
+    line.width = width > 0 ? width : 0;
+    for (const geometry::Vertex v : geometry::line_region(mesh, vertices, width, lengths))
+      line.patch.push_back(int(v));
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
 
 int help_steps(const KeepOptions& o) { return int(o.presses.size() + o.struts.size()); }
 

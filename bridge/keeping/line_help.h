@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "bridge/keeping/keep.h"
+#include "bridge/keeping/keep_trial.h"
 
 namespace furrow::bridge {
 
@@ -13,6 +14,10 @@ struct HelpedLine {
   double height = 1;            ///< over that as drawn [-]
   double width = 0, press = 1;  ///< as drawn [m], 0: none; and [-]
 };
+
+/// The lines that a meter measures, as they lie on a garment, without help.
+std::vector<HelpedLine> helped_lines(const geometry::Mesh& mesh, const physics::Particles& particles,
+                                     LineMeter& meter, const KeepOptions& options);
 
 int help_steps(const KeepOptions& options);                            ///< how many there are
 double press_of(const HelpedLine& line, const KeepOptions& options);   ///< factor that helps [-]

@@ -18,10 +18,12 @@ double processor_seconds() {
 }  // namespace
 
 Budget::Budget(const char* job, double seconds, Listener& other)
-    : job_(job), seconds_(seconds), end_(processor_seconds() + seconds), other_(other) {
+    : job_(job), seconds_(seconds), start_(processor_seconds()), other_(other) {
   if (!(seconds > 0))  // infinity is none
     throw std::invalid_argument(std::string(job) + ": budget = " + std::to_string(seconds) + " is not > 0");
 }
+
+double Budget::used() const { return processor_seconds() - start_; }
 
 bool Budget::cancelled() {
   if (other_.cancelled()) return true;
@@ -29,7 +31,7 @@ bool Budget::cancelled() {
   const auto now = std::chrono::steady_clock::now();
   if (!spent_ && now >= next_look_) {
     next_look_ = now + std::chrono::milliseconds(5);
-    spent_ = processor_seconds() >= end_;
+    spent_ = used() >= seconds_;
   }
   return spent_;
 }

@@ -29,6 +29,7 @@ class Budget : public Listener {
 
   bool is_spent() const { return spent_; }
   double seconds() const { return seconds_; }
+  double used() const;  ///< processor time since it began [s]
 
   /// work(), where Cancelled becomes BudgetSpent if it was the budget that cancelled.
   template <class Work>
@@ -45,7 +46,7 @@ class Budget : public Listener {
   [[noreturn]] void throw_spent() const;
 
   std::string job_;
-  double seconds_, end_;
+  double seconds_, start_;
   Listener& other_;
   std::chrono::steady_clock::time_point next_look_ = {};
   bool spent_ = false;

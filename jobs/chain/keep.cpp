@@ -151,11 +151,7 @@ SceneCloth drawn_in(io::SavedState& state, const io::Scene& scene, const Context
   result.pins = state.pins;
   if (scene.body) result.body = std::make_shared<WorldBody>(*scene.body, context, tolerance_for(state));
   complete_garment(result.file, scene.material);
-  result.cloth = naming(scene.garment.string(), [&] {
-    return bridge::gather(result.file.mesh, spring_options(result.file, scene.material));
-  });
-  pin_cloth(result.cloth, result.pins, result.body.get(), state.simulation.time, context);
-  couple_cloth(result.file, scene, result.cloth, context);
+  result.cloth = cloth_of(result.file, scene, result.pins, result.body.get(), state.simulation.time, context);
   result.options = scene.simulation;
   double& gap = result.options.contact_gap;
   state.contact_gap = settled_gap(state, result.body.get(), gap);

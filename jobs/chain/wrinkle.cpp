@@ -18,6 +18,7 @@
 #include "jobs/base/output_checks.h"
 #include "jobs/base/read_inputs.h"
 #include "jobs/base/seam_ties.h"
+#include "jobs/chain/hold_drawn.h"
 #include "jobs/chain/wrinkle_stages.h"
 #include "jobs/cloth/chain.h"
 #include "jobs/cloth/keep_at_rest.h"
@@ -53,11 +54,11 @@ void check(const WrinkleJob& job, Listener& listener) {
   const std::string smoothed = job.smoothed.string();
   if (!smoothed.empty()) check_output(smoothed);
   if (job.settle && (job.keep || job.state))
-    throw std::invalid_argument(job.keep
-                                    ? "`settle` lets the drawn shape go, `rest=keep` holds it; leave out "
-                                      "one of them"
-                                    : "`settle`: the garment of a state is in motion; leave out one of "
-                                      "the two");
+    throw std::invalid_argument(
+        job.keep ? "`settle` holds the drawn shape by itself, as `rest=keep` does; leave out "
+                   "one of them"
+                 : "`settle`: the garment of a state is in motion; leave out one of "
+                   "the two");
   if (job.subdivide && (!job.settle || *job.subdivide < 0 || *job.subdivide > 4))
     throw std::invalid_argument(
         "`subdivide=" + std::to_string(*job.subdivide) +
@@ -278,7 +279,10 @@ void settle_drawn(const WrinkleJob& job, const RestPlan& plan, const Budget& bud
   MemoryFiles memory = job.settle->memory;
   memory.meshes[scene.garment] = report.garment;
   const Context there{context.frame, context.listener, &memory};
-  Draped draped = drape_garment(scene, plan.body ? &*plan.body : nullptr, {}, false, there);
+  const BodyCollider* body = plan.body ? &*plan.body : nullptr;
+  const bool holds = job.hold && can_hold_lines(scene.material);
+  Draped draped = holds ? hold_drawn(report.garment, scene, body, budget, there)
+                        : drape_garment(scene, body, {}, false, there);
   report.budget_spent = draped.budget_spent = draped.report.stopped && budget.is_spent();
   draped.refinements = plan.refinements;
   draped.name = scene.garment.stem().string();
@@ -287,6 +291,7 @@ void settle_drawn(const WrinkleJob& job, const RestPlan& plan, const Budget& bud
       report.failures.push_back(r.remark);
     else
       context.listener.warn(r.remark);
+  if (const auto low = low_lines(draped.lines); holds && low) context.listener.warn(*low);
   io::TomlDocument document = job.settle->settings;
   take_default_cloth(document, "furrow wrinkle");
   note_material(draped.file, document, draped.gap);

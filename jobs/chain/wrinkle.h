@@ -37,6 +37,9 @@ struct WrinkleJob {
   /// What is drawn comes to rest as furrow drape lets it, on body or pins of these settings; not with keep or
   /// a state.
   std::optional<SceneInput> settle = {};
+  /// With settle: lines are held as drawn, as far as cloth can (jobs/chain/hold_drawn.h); false: by the rest
+  /// state of options.rest alone. Cloth that bends by cross springs has nothing to hold them by.
+  bool hold = true;
   /// With settle: body that the garment lies about, from which it is brought to that of these settings, as
   /// drawn; empty: it lies about that one.
   std::filesystem::path made_for = {};

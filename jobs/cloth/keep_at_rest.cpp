@@ -78,11 +78,9 @@ bridge::KeptShape keep_at_rest(io::MeshFile& file, const io::Scene& scene,
   options.gap = scene.simulation.contact_gap;
   if (body) options.gap = std::max(settled_gap, contact_gap(options.gap, body->tolerance(), file));
   const bridge::GatherOptions springs = spring_options(file, scene.material);
-  physics::Cloth cloth = bridge::gather(file.mesh, springs);
-  SilentListener silent(context.listener);  // the run itself warns of pins
-  const Context quiet{context.frame, silent};
-  pin_cloth(cloth, pins, moving ? nullptr : body, time, quiet);  // in motion, pins were put on it before
-  couple_cloth(file, scene, cloth, quiet, false);
+  SilentListener silent(context.listener);            // the run itself warns of pins
+  const WorldBody* put_on = moving ? nullptr : body;  // in motion, pins were put on it before
+  physics::Cloth cloth = cloth_of(file, scene, pins, put_on, time, {context.frame, silent});
   const bridge::KeptShape shape =
       bridge::keep_shape(cloth, world_of(scene, body, pins), options, moving ? 0 : largest_turn);
   if (shape.turned > 0 || shape.pushed.moved > 0) bridge::scatter(cloth.particles, file.mesh);

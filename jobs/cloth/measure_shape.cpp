@@ -22,6 +22,7 @@ Json line_json(const LineReport& r) {
   if (r.name) line["name"] = *r.name;
   if (r.drawn_height) line["drawn_height"] = *r.drawn_height;
   if (r.width) line["width"] = *r.width;
+  if (r.press != 1) line["press"] = r.press;
   line["smoothed_height"] = r.smoothed_height;
   line["height"] = r.height;
   line["kept"] = r.kept ? Json(*r.kept) : Json();
@@ -35,6 +36,7 @@ LineReport measure_line(std::size_t id, double now, double before, const io::Wri
     line.name = record.lines[id].name;
     line.drawn_height = record.lines[id].drawn_height;
     line.width = record.lines[id].width;
+    line.press = record.lines[id].press;
   }
   const bool known = id < record.lines.size() && std::isfinite(record.lines[id].smoothed_height);
   line.smoothed_height = known ? record.lines[id].smoothed_height : before;

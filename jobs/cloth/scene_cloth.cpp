@@ -137,6 +137,17 @@ bool couple_cloth(const io::MeshFile& file, const io::Scene& scene, physics::Clo
   return thin > 0;
 }
 
+physics::Cloth cloth_of(const io::MeshFile& file, const io::Scene& scene,
+                        const std::vector<std::vector<int>>& pins, const WorldBody* body, double time,
+                        const Context& context) {
+  physics::Cloth cloth = naming(scene.garment.string(), [&] {
+    return bridge::gather(file.mesh, spring_options(file, scene.material));
+  });
+  pin_cloth(cloth, pins, body, time, context);
+  couple_cloth(file, scene, cloth, context);
+  return cloth;
+}
+
 physics::World world_of(const io::Scene& scene, const WorldBody* body,
                         const std::vector<std::vector<int>>& pins) {
   physics::World world;
@@ -165,11 +176,7 @@ SceneCloth prepare_scene(const io::Scene& scene, const Context& context, std::sh
   complete_garment(result.file, scene.material);
   if (keeps_first_shape(scene))
     keep_at_rest(result.file, scene, result.pins, result.body.get(), 0, 0, nullptr, context);
-  result.cloth = naming(scene.garment.string(), [&] {
-    return bridge::gather(result.file.mesh, spring_options(result.file, scene.material));
-  });
-  pin_cloth(result.cloth, result.pins, result.body.get(), 0, context);
-  couple_cloth(result.file, scene, result.cloth, context);
+  result.cloth = cloth_of(result.file, scene, result.pins, result.body.get(), 0, context);
   result.options = scene.simulation;
   if (result.body) {
     result.options.contact_gap =

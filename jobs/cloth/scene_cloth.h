@@ -28,6 +28,12 @@ void pin_cloth(physics::Cloth& cloth, const std::vector<std::vector<int>>& pins,
 bool couple_cloth(const io::MeshFile& file, const io::Scene& scene, physics::Cloth& cloth,
                   const Context& context, bool tell = true);
 
+/// The cloth of a complete garment: gathered from its springs, pinned (pin_cloth()) and coupled. Throws as
+/// bridge::gather() does, naming the scene's garment.
+physics::Cloth cloth_of(const io::MeshFile& file, const io::Scene& scene,
+                        const std::vector<std::vector<int>>& pins, const WorldBody* body, double time,
+                        const Context& context);
+
 /// Body (null: none), wind and led pins; the body must outlive the world.
 physics::World world_of(const io::Scene& scene, const WorldBody* body,
                         const std::vector<std::vector<int>>& pins);

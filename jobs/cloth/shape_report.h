@@ -24,6 +24,7 @@ struct LineReport {
   std::optional<std::string> name;     ///< name and drawn height: none where the garment notes no such line
   std::optional<double> drawn_height;  ///< [m]
   std::optional<double> width;         ///< [m]; none: it has none
+  double press = 1;                    ///< factor on the stiffness of its hinges [-]
   double smoothed_height = 0;          ///< after it was drawn, or at the run's start [m]
   double height = 0;                   ///< now [m]
   std::optional<double> kept;  ///< height over smoothed_height [-]; none: it has no height of its own to keep

@@ -293,11 +293,8 @@ void choose_integrator(Run& run, io::SavedState& now, const physics::Cloth& clot
 Stretch simulate_to(double stop, Run& run, Reached& reached, AnimationSeries& animations) {
   io::SavedState& now = reached.now;
   const io::Scene& scene = run.scene;
-  physics::Cloth cloth = naming(scene.garment.string(), [&] {
-    return bridge::gather(now.file.mesh, spring_options(now.file, scene.material));
-  });
-  pin_cloth(cloth, now.pins, reached.starts ? run.body.get() : nullptr, now.simulation.time, run.context);
-  couple_cloth(now.file, scene, cloth, run.context);
+  const WorldBody* put_on = reached.starts ? run.body.get() : nullptr;
+  physics::Cloth cloth = cloth_of(now.file, scene, now.pins, put_on, now.simulation.time, run.context);
   reached.starts = false;
   choose_integrator(run, now, cloth);
   physics::SimulateOptions options = options_of(run, now, stop, cloth.particles.size());

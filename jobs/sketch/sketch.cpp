@@ -247,6 +247,7 @@ SketchAtRest drape_sketch(const Sketch& sketch, const Json& strokes, Listener& l
   if (strokes.empty()) return drape_plain(sketch, listener);
   WrinkleJob job = job_for(sketch, strokes);
   job.settle = at_rest_settings(sketch);
+  job.hold = sketch.options.rest == geometry::RestRule::drawn;
   job.made_for = sketch.made_for;
   WrinkleReport report = wrinkle(job, listener);
   if (listener.cancelled() || report.rest->report.stopped) throw physics::Cancelled("cancelled");

@@ -10,6 +10,7 @@ furrow_add_tests(bridge bridge LIBRARIES furrow::bridge garment_cases SOURCES
   draping/fit_zones_test.cpp
   arrays/gather_test.cpp
   arrays/woven_gather_test.cpp
+  keeping/hold_lines_test.cpp
   keeping/keep_lines_test.cpp
   keeping/keep_verdicts_test.cpp
   keeping/line_help_test.cpp

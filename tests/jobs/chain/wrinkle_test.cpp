@@ -194,11 +194,46 @@ TEST_CASE("wrinkle: two jobs at once in one process give the bits of single runs
   CHECK(tests::positions(both_one.garment) != tests::positions(both_two.garment));
 }
 
+TEST_CASE("wrinkle: with settle a line lasts, pressed where silk gives way, and the file notes its press") {
+  tests::Recorder recorder;
+  jobs::WrinkleJob job = ridged_sheet();
+  job.settle.emplace();
+  io::set_value(job.settle->settings, "pins.0", io::Json{{"box", {-1, 0.399, -1, 1, 1, 1}}}, "test");
+  io::set_value(job.settle->settings, "material.preset", "silk", "test");
+  const jobs::WrinkleReport held = jobs::wrinkle(job, recorder);
+  REQUIRE(held.rest);
+  INFO(to_json(held)["at_rest"]["lines"].dump(1));
+  CHECK(held.rest->outcome() == "at rest");
+  CHECK(held.rest->lines.at(0).kept.value() == Approx(1).margin(0.04));
+  CHECK(held.rest->lines.at(0).press == 10);
+  const auto record = io::find_wrinkle_record(held.garment);
+  REQUIRE(record);
+  CHECK(record->lines.at(0).press == 10);
+  job.hold = false;
+  const jobs::WrinkleReport fallen = jobs::wrinkle(job, recorder);
+  CHECK(fallen.rest->lines.at(0).kept.value() < 0.95);
+  CHECK(fallen.rest->lines.at(0).press == 1);
+}
+
+TEST_CASE("wrinkle: a line with a press of its own is not pressed twice, and rests as one that got it") {
+  tests::Recorder recorder;
+  jobs::WrinkleJob job = ridged_sheet();
+  job.settle.emplace();
+  io::set_value(job.settle->settings, "pins.0", io::Json{{"box", {-1, 0.399, -1, 1, 1, 1}}}, "test");
+  io::set_value(job.settle->settings, "material.preset", "silk", "test");
+  const jobs::WrinkleReport once = jobs::wrinkle(job, recorder);
+  std::get<std::vector<io::DrawnStroke>>(job.strokes)[0].stroke.press = 10;
+  const jobs::WrinkleReport again = jobs::wrinkle(job, recorder);
+  CHECK(again.rest->lines.at(0).press == 10);
+  CHECK(tests::positions(again.garment) == tests::positions(once.garment));
+}
+
 TEST_CASE("wrinkle: with settle the drawn sheet comes to rest in cotton, as drape lets it") {
   const fs::path folder = tests::empty_folder("wrinkle_settle");
   tests::Recorder recorder;
   jobs::WrinkleJob job = ridged_sheet();
   job.settle.emplace();
+  job.hold = false;
   job.smoothed = folder / "drawn.ply";
   job.output = folder / "rests.ply";
   CHECK_THROWS_WITH(jobs::wrinkle(job, recorder), Catch::Contains("`pin_loop`") && Catch::Contains("`body`"));
