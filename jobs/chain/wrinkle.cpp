@@ -12,6 +12,7 @@
 #include "io/scene/scene_file.h"
 #include "io/stroke/stroke_file.h"
 #include "jobs/base/budget.h"
+#include "jobs/base/card.h"
 #include "jobs/base/gate.h"
 #include "jobs/base/max_weights.h"
 #include "jobs/base/measure_crossings.h"
@@ -58,10 +59,10 @@ void check(const WrinkleJob& job, Listener& listener) {
                                       "one of them"
                                     : "`settle`: the garment of a state is in motion; leave out one of "
                                       "the two");
-  if (job.subdivide && (!job.settle || *job.subdivide < 0 || *job.subdivide > 4))
+  check_card(job);
+  if (job.subdivide && !job.settle)
     throw std::invalid_argument(
-        "`subdivide=" + std::to_string(*job.subdivide) +
-        "`: refines 0 to 4 times before lines are drawn that come to rest (`settle`)");
+        "`subdivide` goes with `settle`; `furrow subdivide` refines a garment by itself");
   if (!smoothed.empty() && !job.settle)
     throw std::invalid_argument("`smoothed` writes what is drawn before it comes to rest; add `settle`");
   if (!job.made_for.empty() && !job.settle)

@@ -55,6 +55,13 @@ struct WrinkleJob {
   std::vector<std::string> more_inputs = {};   ///< files that the caller reads: none may be replaced
 };
 
+/// Its options, each bound to its field (jobs/base/card.h); and those of them that say how lines are drawn,
+/// which are noted in what is drawn.
+std::vector<CardRow> card(WrinkleJob& job);
+std::vector<CardRow> drawing_card(WrinkleJob& job);
+/// Those that drawing by this rule would not look at.
+std::vector<std::string> options_without_use(geometry::InsertionRule rule);
+
 struct Draped;
 
 /// What jobs::wrinkle() did.
