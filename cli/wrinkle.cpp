@@ -15,6 +15,7 @@
 #include "io/base/lower_case.h"
 #include "io/picture/png_file.h"
 #include "io/scene/relocated.h"
+#include "io/scene/scene_rules.h"
 #include "jobs/base/read_inputs.h"
 #include "jobs/chain/wrinkle_stages.h"
 #include "jobs/cloth/fabric_file.h"
@@ -105,7 +106,7 @@ void draw_again(const WrinkleArguments& a, WrinkleJob& job) {
 void check_rule(const WrinkleArguments& a, const WrinkleJob& job) {
   const geometry::InsertionRule rule = job.options.insertion.rule;
   const bool folds = rule == geometry::InsertionRule::fold;
-  for (const std::string& option : options_without_use(rule))
+  for (const std::string& option : io::options_without_use(rule))
     if (a.typed->count(io::flag_of(option)))
       throw UsageError("`" + option + "`: the rule " +
                        (folds                                   ? "fold"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/scene/scene_rules.h"
 #include "io/scene/settings_schema.h"
 #include "jobs/chain/wrinkle.h"
 #include "jobs/chain/wrinkle_stages.h"
@@ -15,7 +16,7 @@ namespace {
 /// Options that the rule in use would not look at are refused, rather than ignored.
 void check_call(const jobs::WrinkleJob& job, const Call& call) {
   const geometry::InsertionRule rule = job.options.insertion.rule;
-  for (const std::string& name : jobs::options_without_use(rule))
+  for (const std::string& name : io::options_without_use(rule))
     if (call.has(name))
       throw std::invalid_argument(name + ": the rule does not use it; it goes with rule " +
                                   (rule == geometry::InsertionRule::fold ? "safe or paper" : "fold"));

@@ -59,8 +59,6 @@ struct WrinkleJob {
 /// which are noted in what is drawn.
 std::vector<CardRow> card(WrinkleJob& job);
 std::vector<CardRow> drawing_card(WrinkleJob& job);
-/// Those that drawing by this rule would not look at.
-std::vector<std::string> options_without_use(geometry::InsertionRule rule);
 
 struct Draped;
 

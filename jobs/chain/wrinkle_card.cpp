@@ -104,10 +104,4 @@ std::vector<CardRow> card(WrinkleJob& job) {
   return rows;
 }
 
-std::vector<std::string> options_without_use(geometry::InsertionRule rule) {
-  if (rule == geometry::InsertionRule::fold)
-    return {"iterations", "weights", "keep_lines", "keep_border", "region"};
-  return {"detail", "fold_iterations", "flat_base"};
-}
-
 }  // namespace furrow::jobs
