@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "cli/card_options.h"
 #include "cli/common.h"
 #include "cli/subcommands.h"
 #include "jobs/base/read_inputs.h"
@@ -11,21 +12,17 @@ namespace furrow::cli {
 namespace {
 
 struct BakeArguments : CommonArguments {
-  std::string low, high, applied;
-  int check = -1;
-  geometry::BakeOptions options;
+  std::string low, high;
+  BakeJob job;
 };
 
-BakeJob job_of(const BakeArguments& a) {
+int bake(BakeArguments& a) {
+  BakeJob& job = a.job;
+  a.out = job.prefix;
   if (a.out == "-") throw UsageError("-o: maps need a prefix for their names");
-  using Path = std::filesystem::path;
-  BakeJob job{Path(a.low), Path(a.high), a, a.options, a.out, {}, a.applied};
-  if (a.check >= 0) job.check = a.check;
-  return job;
-}
-
-int bake(const BakeArguments& a) {
-  const BakeJob job = job_of(a);
+  job.low = std::filesystem::path(a.low);
+  job.high = std::filesystem::path(a.high);
+  job.frame = a;
   catch_interrupts();
   Terminal terminal(a);
   const BakeReport report = jobs::bake(job, terminal);
@@ -33,7 +30,7 @@ int bake(const BakeArguments& a) {
     warn("interrupted; nothing is written", a);
     return exit_interrupted;
   }
-  if (report.check && a.applied == "-") write_mesh("-", report.check->applied, a);
+  if (report.check && job.applied == "-") write_mesh("-", report.check->applied, a);
   if (report.cancelled)  // what follows the maps is only a measurement
     warn("interrupted; the maps are written, the check is not complete", a);
   const Json json = to_json(report);
@@ -53,18 +50,8 @@ void add_bake(CLI::App& app, int& exit_code) {
   sub->add_option("low", a->low, "mesh that the maps are for; its texture charts must not overlap")
       ->required();
   sub->add_option("high", a->high, "wrinkled mesh with the same charts, in the same pose")->required();
-  sub->add_option("-o,--output", a->out, "what the names of the files begin with")->required();
-  sub->add_option("--texels", a->options.size, "width and height of the maps [texels]")
-      ->check(CLI::Range(1, 8192))
-      ->capture_default_str();
-  sub->add_option("--padding", a->options.padding, "how far the charts go on beyond their borders [texels]")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
-  sub->add_option("--check", a->check,
-                  "apply the written map to the low mesh cut so many times into four, and report the "
-                  "distances between the result and the high mesh [m]")
-      ->check(CLI::Range(0, 6));
-  sub->add_option("--applied", a->applied, "mesh to write the result of --check to");
+  add_card(*sub, card(a->job));
+  sub->get_option("--output")->required();
   add_common_options(*sub, *a);
   sub->callback([a, &exit_code] { exit_code = bake(*a); });
 }

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <memory>
 
+#include "cli/card_options.h"
 #include "cli/common.h"
 #include "cli/shipped.h"
 #include "cli/subcommands.h"
@@ -17,7 +18,7 @@ namespace {
 
 struct BodyArguments : CommonArguments {
   std::string in;
-  geometry::BodyMeasures measures;
+  BodyJob job;
 };
 
 std::string measures_words(const geometry::BodyMeasures& m) {
@@ -25,18 +26,20 @@ std::string measures_words(const geometry::BodyMeasures& m) {
                      100 * m.chest, 100 * m.waist, 100 * m.hip);
 }
 
-int body(const BodyArguments& a) {
+int body(BodyArguments& a) {
+  a.out = a.job.output.string();
   const std::filesystem::path in =
       a.in.empty() ? shipped("meshes/mannequin.obj") : std::filesystem::path(a.in);
   if (in.empty()) throw UsageError("our mannequin is not installed here; name a body: furrow body BODY");
-  const geometry::BodyMeasures& m = a.measures;
-  const bool asks = m.any();
+  const bool asks = a.job.measures.any();
   if (asks && a.out.empty())
     throw UsageError("nothing to write: name --output for the body with these measurements");
   if (!asks && !a.out.empty())
     throw UsageError("no measurement is asked for: name --height, --chest, --waist or --hip, in metres");
   Terminal terminal(a);
-  const BodyReport report = jobs::shape_body({in, a, m, a.out}, terminal);
+  a.job.mesh = in;
+  a.job.frame = a;
+  const BodyReport report = jobs::shape_body(a.job, terminal);
   if (a.out == "-") write_mesh(report.mesh, in_frame(a, report.frame));
   Json json = to_json(report);
   std::vector<std::string> lines{(asks ? "was: " : "") + measures_words(report.shape.before)};
@@ -68,14 +71,7 @@ void add_body(CLI::App& app, int& exit_code) {
                          "  furrow body scan.obj --waist 0.80 -o wider.obj\n"
                          "  furrow body scan.obj");
   sub->add_option("body", a->in, "standing body to read (default: our mannequin)");
-  sub->add_option("-o,--output", a->out,
-                  "mesh to write: obj, ply, off, stl or glb; - is OBJ to standard output");
-  sub->add_option("--height", a->measures.height, "from floor to crown [m]")->check(CLI::Range(0.9, 2.5));
-  sub->add_option("--chest", a->measures.chest, "around the fullest of the chest, under the armpits [m]")
-      ->check(CLI::Range(0.3, 3.0));
-  sub->add_option("--waist", a->measures.waist, "around the narrowest [m]")->check(CLI::Range(0.3, 3.0));
-  sub->add_option("--hip", a->measures.hip, "around the fullest of the seat [m]")
-      ->check(CLI::Range(0.3, 3.0));
+  add_card(*sub, card(a->job));
   add_common_options(*sub, *a);
   sub->callback([a, &exit_code] { exit_code = body(*a); });
 }

@@ -12,6 +12,7 @@
 #include <iostream>
 #include <sstream>
 
+#include "cli/card_options.h"
 #include "cli/help.h"
 #include "cli/print_text.h"
 #include "jobs/base/finite_report.h"
@@ -65,18 +66,8 @@ void on_interrupt(int signal) {
 }  // namespace
 
 void add_common_options(CLI::App& sub, CommonArguments& common) {
+  add_card(sub, common_card(common, common.force, common.replace));
   begin_group(sub, group::output);
-  sub.add_option("--unit", common.unit,
-                 "unit of length in the mesh and stroke files: m, cm, mm or inch; heights are metres always "
-                 "(default m, or what "
-                 "a mesh of furrow notes)")
-      ->check(CLI::IsMember({"m", "cm", "mm", "inch"}));
-  sub.add_option("--up", common.up, "axis that points up in those files: y or z (default y, or as noted)")
-      ->check(CLI::IsMember({"y", "z"}));
-  sub.add_flag("--force", common.force,
-               "go on where a body, a tolerance or a step asks for very much memory or time");
-  sub.add_flag("--replace", common.replace,
-               "write over files that furrow did not write; those that it wrote are replaced without it");
   sub.add_flag("--json", common.json, "print the report as JSON");
   sub.add_flag("-v,--verbose", common.verbose, "all numbers of the report, not its summary alone");
   sub.add_flag("-q,--quiet", common.quiet,
@@ -243,14 +234,6 @@ bool Terminal::cancelled() { return interrupted(); }
 bool Terminal::allows(const std::string& demand) {
   if (common_.force) cli::warn(demand + "; --force goes on all the same", common_);
   return common_.force;
-}
-
-void add_budget_option(CLI::App& sub, double& seconds, const std::string& what) {
-  char standard[32];
-  std::snprintf(standard, sizeof standard, "%.4g", seconds);
-  sub.add_option(
-      "--budget", seconds,
-      "processor time after which " + what + " [s], > 0, inf for no end (default " + standard + ")");
 }
 
 void report_spent_budget(double seconds, const std::vector<std::string>& files) {

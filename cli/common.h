@@ -25,8 +25,6 @@ enum ExitCode {
   exit_interrupted = 130
 };
 
-/// The option for a job's budget of processor time, with its default [s].
-void add_budget_option(CLI::App& sub, double& seconds, const std::string& what);
 /// On stderr: that the budget of so many seconds ended the job, what that means, and what helps.
 void report_spent_budget(double seconds, const std::vector<std::string>& written);
 

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cli/camera_options.h"
+#include "cli/card_options.h"
 #include "cli/print_text.h"
 #include "cli/subcommands.h"
 #include "io/picture/png_file.h"
@@ -15,23 +16,10 @@ namespace furrow::cli {
 namespace {
 
 struct DoctorArguments : CommonArguments {
-  std::string mesh, body, body_unit, picture;
-  bool is_body = false, repair = false;
+  std::string mesh, picture;
+  DoctorJob job;
   CameraArguments camera;
 };
-
-DoctorJob job_of(const DoctorArguments& a) {
-  DoctorJob job;
-  job.mesh = std::filesystem::path(a.mesh);
-  if (!a.body.empty()) job.body = std::filesystem::path(a.body);
-  if (!a.body_unit.empty()) job.body_unit = a.body_unit;
-  job.frame = a;
-  job.is_body = a.is_body;
-  job.repair = a.repair;
-  job.output = a.out;
-  job.more_outputs = {a.picture, a.camera.save_camera};
-  return job;
-}
 
 /// The mesh with a ball at each place where something is wrong.
 void write_picture(const DoctorReport& report, const DoctorArguments& a) {
@@ -65,19 +53,24 @@ Json sentences(Json report) {
 std::vector<std::string> next_of(const DoctorReport& report, const DoctorArguments& a) {
   const auto mendable = [](const Ailment& ailment) { return ailment.mendable; };
   if (!report.repaired && std::any_of(report.found.begin(), report.found.end(), mendable))
-    return a.is_body ? std::vector<std::string>{"furrow",   "doctor", a.mesh,      "--as-body",
-                                                "--repair", "-o",     "mended.obj"}
-                     : std::vector<std::string>{"furrow", "doctor", a.mesh, "--repair", "-o", "mended.obj"};
-  if (!report.well() || a.is_body) return {};
+    return a.job.is_body
+               ? std::vector<std::string>{"furrow",   "doctor", a.mesh,      "--as-body",
+                                          "--repair", "-o",     "mended.obj"}
+               : std::vector<std::string>{"furrow", "doctor", a.mesh, "--repair", "-o", "mended.obj"};
+  if (!report.well() || a.job.is_body) return {};
   const std::string mesh = a.out.empty() || a.out == "-" ? a.mesh : a.out;
-  if (a.body.empty()) return {"furrow", "wrinkle", mesh, "LINES", "-o", "wrinkled.ply"};
-  return {"furrow", "drape", mesh, "--body", a.body, "-o", "draped.ply"};
+  if (!a.job.body) return {"furrow", "wrinkle", mesh, "LINES", "-o", "wrinkled.ply"};
+  return {"furrow", "drape", mesh, "--body", name_of(*a.job.body, ""), "-o", "draped.ply"};
 }
 
-int doctor(const DoctorArguments& a) {
+int doctor(DoctorArguments& a) {
   check_picture(a.picture, "--picture");
+  a.job.mesh = std::filesystem::path(a.mesh);
+  a.job.frame = a;
+  a.job.more_outputs = {a.picture, a.camera.save_camera};
+  a.out = a.job.output.string();
   Terminal terminal(a);
-  const DoctorReport report = jobs::doctor(job_of(a), terminal);
+  const DoctorReport report = jobs::doctor(a.job, terminal);
   if (a.out == "-") write_mesh(report.mesh, in_frame(a, report.frame));
   if (!a.picture.empty()) write_picture(report, a);
   Json json = a.json ? to_json(report) : sentences(to_json(report));
@@ -99,16 +92,7 @@ void add_doctor(CLI::App& app, int& exit_code) {
                          "  furrow doctor shirt.obj --repair -o mended.obj\n\n"
                          "The exit code is 4 where something is wrong, or is left after --repair.");
   sub->add_option("mesh", a->mesh, "garment to examine; with --as-body a body")->required();
-  sub->add_option("--body", a->body, "body that the garment goes with: sizes, axes, which is which");
-  sub->add_option("--body-unit", a->body_unit, "unit of the body's file, where it is not the garment's")
-      ->check(CLI::IsMember({"m", "cm", "mm", "inch"}));
-  sub->add_flag("--as-body", a->is_body, "examine the mesh as a body: closed, wound outwards");
-  sub->add_flag(
-      "--repair", a->repair,
-      "join vertices at the same place, drop faces that are twice there, wind neighbours alike, part "
-      "what is not manifold, close holes (small ones of a garment, all of a body)");
-  sub->add_option("-o,--output", a->out,
-                  "mended mesh to write: obj, ply, off, stl or glb; - is OBJ to stdout");
+  add_card(*sub, card(a->job));
   sub->add_option("--picture", a->picture, "PNG to write: a red ball where something is wrong");
   add_camera_options(*sub, a->camera);
   add_common_options(*sub, *a);

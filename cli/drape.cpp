@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/rest/drape.h"
 
-#include <algorithm>
-#include <cstdlib>
 #include <iostream>
 #include <memory>
 
 #include "cli/camera_options.h"
+#include "cli/card_options.h"
 #include "cli/help.h"
 #include "cli/print_text.h"
 #include "cli/scene_flags.h"
@@ -22,66 +21,18 @@ namespace {
 struct DrapeArguments : CommonArguments {
   std::string in, picture, colour = "strain", animation;
   std::vector<std::string> garments;  ///< `in` is the first
-  std::optional<std::string> compare;
-  std::string subdivide, self_contact = "auto", loose = "hold";
-  DrapeSettings settings;
-  std::vector<std::string> bands;
+  DrapeJob job;
   SceneFlags flags;
   CameraArguments camera;
-  bool view_chosen = false, no_legend = false;
-  double budget = DrapeJob{}.budget;
+  bool view_chosen = false, no_legend = false, auto_subdivide = false;
 };
-
-std::string trimmed(const std::string& text) {
-  const std::size_t begin = text.find_first_not_of(' ');
-  return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(' ') - begin + 1);
-}
-
-/// Bands as "top=0.9". Throws UsageError that tells what to write.
-std::vector<Band> parse_bands(const std::vector<std::string>& texts) {
-  std::vector<Band> bands;
-  for (const std::string& text : texts) {
-    const auto fail = [&](const std::string& what) {
-      throw UsageError(
-          "--band " + text + ": " + what +
-          "; write a border loop and the band's length as a share of the loop's: --band top=0.95 "
-          "is a band 5 % shorter than the garment's upper border");
-    };
-    const std::size_t equals = text.find('=');
-    if (equals == std::string::npos) fail("there is no length");
-    if (equals == 0) fail("there is no loop");
-    const std::string loop = text.substr(0, equals), number = text.substr(equals + 1);
-    char* end = nullptr;
-    const double length = std::strtod(number.c_str(), &end);
-    if (number.empty() || *end != 0) fail("'" + number + "' is no number");
-    if (!(length > 0 && length <= 2)) fail("the length must be above 0 and at most 2");
-    if (std::any_of(bands.begin(), bands.end(), [&](const Band& b) { return b.loop == loop; }))
-      fail("'" + loop + "' has a band already");
-    bands.push_back({loop, length});
-  }
-  return bands;
-}
-
-/// The fabrics of --fabrics, separated by commas. Throws UsageError where a name is missing.
-std::vector<std::string> parse_fabrics(const std::string& text) {
-  std::vector<std::string> names;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t comma = std::min(text.find(',', begin), text.size());
-    names.push_back(trimmed(text.substr(begin, comma - begin)));
-    begin = comma + 1;
-  }
-  if (std::find(names.begin(), names.end(), "") != names.end())
-    throw UsageError(
-        "--fabrics '" + text +
-        "': a name is missing; write fabrics separated by commas, as in --fabrics cotton,silk,denim");
-  return names;
-}
 
 void check_call(const DrapeArguments& a) {
   if (a.out.empty() && a.picture.empty() && a.animation.empty())
     throw UsageError("nothing to write: name --output, --picture or --animation");
-  if (a.compare && a.picture.empty()) throw UsageError("--fabrics is a picture: name it with --picture");
-  if (a.compare && (!a.out.empty() || !a.animation.empty()))
+  if (!a.job.fabrics.empty() && a.picture.empty())
+    throw UsageError("--fabrics is a picture: name it with --picture");
+  if (!a.job.fabrics.empty() && (!a.out.empty() || !a.animation.empty()))
     throw UsageError("--fabrics writes a picture only; drape each by itself for its mesh");
   if (a.picture.empty() && (a.view_chosen || a.no_legend || !a.camera.save_camera.empty()))
     throw UsageError("a view, --no-legend and --save-camera are of use with --picture only");
@@ -91,7 +42,7 @@ void check_call(const DrapeArguments& a) {
 
 DrapeJob job_of(const DrapeArguments& a) {
   check_call(a);
-  DrapeJob job;
+  DrapeJob job = a.job;
   job.scene.settings = scene_settings(a.in, "", std::nullopt, a.flags, a);
   if (a.colour == "distance" && !job.scene.settings.root->contains("body"))
     throw UsageError("--colour distance is that to a body: name one with --body");
@@ -101,16 +52,7 @@ DrapeJob job_of(const DrapeArguments& a) {
     job.over.push_back(a.garments[i]);
   }
   if (is_scene(a.in)) job.scene.folder = std::filesystem::path(a.in).parent_path();
-  job.settings = a.settings;
-  job.settings.self_contact = a.self_contact == "on"    ? SelfContactUse::on
-                              : a.self_contact == "off" ? SelfContactUse::off
-                                                        : SelfContactUse::automatic;
-  job.settings.loose = a.loose == "drop"   ? LooseUse::drop
-                       : a.loose == "fall" ? LooseUse::fall
-                                           : LooseUse::hold;
-  job.settings.bands = parse_bands(a.bands);
-  job.settings.animation = a.animation;
-  if (a.subdivide == "auto") {
+  if (a.auto_subdivide) {
     if (auto& root = *job.scene.settings.root; root.contains("garment")) {
       io::Json& garment = root["garment"];
       if (garment.is_object()) garment.erase("subdivide");
@@ -118,12 +60,7 @@ DrapeJob job_of(const DrapeArguments& a) {
         for (io::Json& one : garment)
           if (one.is_object()) one.erase("subdivide");
     }
-  } else if (!a.subdivide.empty()) {
-    job.subdivide = std::stoi(a.subdivide);
   }
-  if (a.compare) job.fabrics = parse_fabrics(*a.compare);
-  job.output = a.out;
-  job.budget = a.budget;
   job.more_outputs = {a.picture, a.camera.save_camera};
   job.more_inputs = {a.camera.camera};
   if (is_scene(a.in)) job.more_inputs.push_back(a.in);
@@ -201,7 +138,7 @@ void tell_interruption(const DrapeArguments& a, bool drawn, bool animated) {
 
 /// Says what is to be said of the result, and returns the exit code for it.
 int tell_remarks(const DrapeJobReport& report, const DrapeArguments& a, Terminal& terminal) {
-  if (report.budget_spent) report_spent_budget(a.budget, written_files(report, a));
+  if (report.budget_spent) report_spent_budget(a.job.budget, written_files(report, a));
   for (const DrapeRemark& r : report.remarks) {
     if (r.fails)
       std::cerr << "error: " << worded(r.remark.text) << "\n";
@@ -213,7 +150,7 @@ int tell_remarks(const DrapeJobReport& report, const DrapeArguments& a, Terminal
 
 int drape(const DrapeArguments& a) {
   catch_interrupts();
-  Terminal terminal(a, a.budget);
+  Terminal terminal(a, a.job.budget);
   io::OutputGroup together;
   DrapeJobReport report = jobs::drape(job_of(a), terminal);
   const CommonArguments common = in_frame(a, report.frame);
@@ -268,78 +205,9 @@ void add_drape(CLI::App& app, int& exit_code) {
                   "garment to read, where it lies on the body or about it, or a scene: a .toml file; several "
                   "are worn over each other, the first one innermost, and none passes through another")
       ->required();
-  begin_group(*sub, group::output);
-  sub->add_option("-o,--output", a->out,
-                  "mesh to write: the garment as it is worn; PLY keeps strain and distance. Of several, a "
-                  "file each: worn.ply becomes worn-shirt.ply and so on; or put {} for the garment's name");
-  sub->add_option("--animation", a->animation,
-                  "the way to rest, not a motion in time: a frame an iteration; pc2, mdd or glb");
-  begin_group(*sub, group::cloth);
-  sub->add_option(
-         "--subdivide", a->subdivide,
-         "refine the garment so many times (Loop), 0 to 6; its shape is found coarse to fine. auto (the "
-         "default): as often as its edges need to keep the gap, up to some 60,000 vertices; 0 for a "
-         "garment with a rest state of its own")
-      ->check(CLI::IsMember({"auto", "0", "1", "2", "3", "4", "5", "6"}));
-  begin_group(*sub, group::cloth, Audience::few);
-  sub->add_option(
-         "--bending-friction", a->settings.bending_friction,
-         "internal friction of bending: the moment that a metre of crease bears before it gives way [N] "
-         "(default 0; half of Kawabata's 2HB)")
-      ->check(CLI::NonNegativeNumber);
-  begin_group(*sub, group::body);
-  sub->add_option(
-      "--made-for", a->settings.made_for,
-      "body that the garment was made for and lies about, in the garment's unit: the garment is "
-      "brought from there to --body before it is draped, turned with arms and legs; its size stays");
-  sub->add_option(
-         "--band", a->bands,
-         "an elastic band along a border loop and its length over the loop's: top=0.9; may be given again")
-      ->allow_extra_args(false);
-  begin_group(*sub, group::body, Audience::few);
-  sub->add_option("--band-stiffness", a->settings.band_stiffness,
-                  "force in a band at twice its length [N] (default 50)")
-      ->check(CLI::NonNegativeNumber);
-  begin_group(*sub, group::rest);
-  sub->add_option(
-         "--self-contact", a->self_contact,
-         "whether cloth keeps off cloth: layers and folds lie on each other, and nothing passes through that "
-         "did not at the start. auto: where that ends blocked, torn or not at rest, the garment is draped "
-         "again without, and the better end is taken; with --plain, auto is off")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"auto", "on", "off"}));
-  sub->add_option(
-         "--loose", a->loose,
-         "parts that neither the body nor a pin holds: hold lets them lie aside, and carries them with the "
-         "nearest cloth; drop takes them out; fall drapes them as the rest")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"hold", "drop", "fall"}));
-  add_budget_option(*sub, a->budget, "the best state so far is written, with exit code 4");
-  begin_group(*sub, group::rest, Audience::few);
-  sub->add_option("--residual", a->settings.residual,
-                  "largest net force on a vertex, over its weight, at which it rests (default 0.001)");
-  sub->add_option("--contact-depth", a->settings.contact_depth,
-                  "go on, with contact ever stiffer, until nothing lies deeper in the gap than this [m]: "
-                  "1e-6 gives tight cloth its full strain, in about twice the time (default: usually some "
-                  "0.1 mm)")
-      ->check(CLI::Range(1e-7, 1.0));
-  sub->add_option(
-         "--cloth-thickness", a->settings.thickness,
-         "of the cloth, with --self-contact: layers are so far apart [m] (default the scene's, else 0.001)")
-      ->check(CLI::Range(1e-5, 0.05));
-  sub->add_option("--penetration", a->settings.penetration,
-                  "depth to which the body may come through the cloth, between vertices, too [m] (default "
-                  "0.005); beyond it the exit code is 4")
-      ->check(CLI::NonNegativeNumber);
-  sub->add_flag("--plain", a->settings.plain,
-                "paper 2's own scheme: forces used as displacements, with a cap; to compare with");
-  sub->add_option(
-         "--max-iterations", a->settings.iterations,
-         "at most, on each level (default 200, with contact of cloth with cloth 1000; --plain: 20000)")
-      ->check(CLI::NonNegativeNumber);
+  add_card(*sub, card(a->job));
   begin_group(*sub, group::picture);
   sub->add_option("--picture", a->picture, "PNG to write: the garment on the body, coloured, with a legend");
-  sub->add_option("--fabrics", a->compare, "fabrics separated by commas: one picture of them all");
   begin_group(*sub, group::picture, Audience::few);
   sub->add_option("--colour", a->colour, "of the picture: strain (default) or distance")
       ->check(CLI::IsMember({"strain", "distance"}));
@@ -351,6 +219,9 @@ void add_drape(CLI::App& app, int& exit_code) {
     for (const char* option : {"--view", "--camera", "--eye", "--target"})
       a->view_chosen = a->view_chosen || sub->count(option) > 0;
     a->in = a->garments.front();
+    a->out = a->job.output.string();
+    a->animation = a->job.settings.animation.string();
+    a->auto_subdivide = sub->count("--subdivide") && !a->job.subdivide;
     exit_code = drape(*a);
   });
 }

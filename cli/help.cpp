@@ -9,16 +9,16 @@ namespace {
 
 constexpr char for_few = '\t';          // at the end of the name of a group
 constexpr std::size_t most_shown = 30;  // a command with no more options than that shows them all
-constexpr std::array in_order{"Options",   group::lines,  group::cloth,   group::body,
-                              group::rest, group::motion, group::picture, group::output};
+// By the groups, in the order in which --help shows them.
+constexpr std::array headings{"Options", "Lines",  "Cloth",   "Body and pins",
+                              "Rest",    "Motion", "Picture", "Output"};
 
 bool is_for_few(const CLI::Option& option) { return option.get_group().ends_with(for_few); }
 
 }  // namespace
 
-void begin_group(CLI::App& sub, const char* name, Audience audience) {
-  sub.option_defaults()->group(std::string(name) +
-                               (audience == Audience::few ? std::string(1, for_few) : ""));
+void begin_group(CLI::App& sub, group name, Audience audience) {
+  sub.option_defaults()->group(headings[std::size_t(name)] + std::string(audience == Audience::few, for_few));
 }
 
 std::string HelpFormatter::make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const {
@@ -26,7 +26,7 @@ std::string HelpFormatter::make_help(const CLI::App* app, std::string name, CLI:
   const bool all = mode == CLI::AppFormatMode::All || app->get_options().size() <= most_shown;
   std::string text = make_description(app) + make_usage(app, std::move(name)) + make_positionals(app);
   std::size_t left_out = 0;
-  for (const std::string heading : in_order) {
+  for (const std::string heading : headings) {
     std::vector<const CLI::Option*> options;
     for (const std::string& group : {heading, heading + for_few})
       for (const CLI::Option* o : app->get_options()) {

@@ -2,19 +2,17 @@
 #pragma once
 #include <CLI/CLI.hpp>
 
+#include "jobs/base/card.h"
+
 /// How --help is laid out: options in groups, of which the --help of a command
 /// with very many shows what most users need, and --help-all all.
 namespace furrow::cli {
 
-/// The groups, in the order in which --help shows them.
-namespace group {
-inline constexpr const char *lines = "Lines", *cloth = "Cloth", *body = "Body and pins", *rest = "Rest",
-                            *motion = "Motion", *picture = "Picture", *output = "Output";
-}
-enum class Audience { everyone, few };
+using group = jobs::Group;
+using jobs::Audience;
 
 /// What is added from now on stands in this group.
-void begin_group(CLI::App& sub, const char* name, Audience audience = Audience::everyone);
+void begin_group(CLI::App& sub, group name, Audience audience = Audience::everyone);
 class HelpFormatter : public CLI::Formatter {
  public:
   std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override;

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cli/camera_options.h"
+#include "cli/card_options.h"
 #include "cli/help.h"
 #include "cli/scene_flags.h"
 #include "cli/subcommands.h"
@@ -16,42 +17,30 @@ namespace furrow::cli {
 namespace {
 
 struct KeepArguments : CommonArguments {
-  std::string in, state, picture;
+  std::string in, picture;
+  KeepJob job;
   SceneFlags flags;
   CameraArguments camera;
-  double run = 5, gust = 12;
-  std::string kept = "95%";
-  bool no_balance = false, no_settle = false, no_help = false, whole = false, fast = false;
-  double budget = KeepJob{}.budget;
 };
 
 KeepJob job_of(const KeepArguments& a) {
   if (a.picture.empty() && !a.camera.save_camera.empty())
     throw UsageError("--save-camera is of use with --picture only");
   check_folder(a.camera.save_camera);
-  KeepJob job;
-  if (!a.state.empty()) job.state = io::read_state(a.state);
-  job.state_path = a.state;
-  job.scene.settings = scene_settings(a.in, a.state, job.state, a.flags, a);
-  job.scene.folder = std::filesystem::path(is_scene(a.in) ? a.in : a.state).parent_path();
-  job.seconds = a.run;
-  job.gust = a.gust;
-  job.kept = parse_share(a.kept, "--kept");
-  job.balance = !a.no_balance;
-  job.settle = !a.no_settle;
-  job.help = !a.no_help;
-  job.whole = a.whole;
-  job.prove = !a.fast;
-  job.budget = a.budget;
+  KeepJob job = a.job;
+  const std::string state = job.state_path.string();
+  if (!state.empty()) job.state = io::read_state(state);
+  job.scene.settings = scene_settings(a.in, state, job.state, a.flags, a);
+  job.scene.folder = std::filesystem::path(is_scene(a.in) ? a.in : state).parent_path();
   job.more_outputs = {a.picture, a.camera.save_camera};
   return job;
 }
 
 int keep(const KeepArguments& a) {
   catch_interrupts();
-  Terminal terminal(a, a.budget);
+  Terminal terminal(a, a.job.budget);
   const KeepReport report = jobs::keep(job_of(a), terminal);
-  if (report.budget_spent) report_spent_budget(a.budget, {report.mesh.string()});
+  if (report.budget_spent) report_spent_budget(a.job.budget, {report.mesh.string()});
   if (!report.ran) return report.budget_spent ? exit_not_converged : exit_interrupted;
   const CommonArguments common = in_frame(a, report.frame);
   if (report.mesh == "-") write_mesh("-", report.garment, common);
@@ -89,32 +78,7 @@ void add_keep(CLI::App& app, int& exit_code) {
       "  furrow keep --state worn.ply --save-state kept.ply\n"
       "  furrow simulate --state kept.ply --seconds 5 -o after.ply");
   sub->add_option("garment", a->in, "wrinkled garment, or a scene: a .toml file");
-  begin_group(*sub, group::lines);
-  sub->add_option("--state", a->state, "a saved state, with lines drawn on the cloth as it hangs or lies");
-  sub->add_option("--gust", a->gust,
-                  "and an acceleration to each of four sides for 0.4 s, and 2 s of calm [m/s^2] (default 12)")
-      ->check(CLI::NonNegativeNumber);
-  sub->add_option("--kept", a->kept, "share of its height with which a line holds (default 95%)");
-  sub->add_flag(
-      "--fast", a->fast,
-      "one gust in place of four and longer steps: two to four times sooner, but a line that is called "
-      "held may be lost in others");
-  sub->add_flag("--whole", a->whole,
-                "press what lies between the lines, too, where it could give way, so that all of the garment "
-                "stays as drawn");
-  add_budget_option(*sub, a->budget, "the last rest state that was found is written, with exit code 4");
-  begin_group(*sub, group::lines, Audience::few);
-  sub->add_option("--run", a->run, "how long each trial runs forward from rest [s] (default 5)")
-      ->check(CLI::PositiveNumber);
-  sub->add_flag(
-      "--no-balance", a->no_balance,
-      "do not turn a garment about a line of pins, or one, until its centre of mass hangs below them "
-      "(by at most 0.2 rad)");
-  sub->add_flag("--no-settle", a->no_settle,
-                "on a body, keep a wrinkled garment, or draw the scene's lines, where it lies, even if "
-                "nothing holds it there, or a few vertices; by default it comes to rest first then");
-  sub->add_flag("--no-help", a->no_help,
-                "no press, struts or lower height where the rest state alone does not hold");
+  add_card(*sub, card(a->job));
   begin_group(*sub, group::picture);
   sub->add_option(
       "--picture", a->picture,

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cli/camera_options.h"
+#include "cli/card_options.h"
 #include "cli/subcommands.h"
 #include "io/picture/png_file.h"
 #include "jobs/base/read_inputs.h"
@@ -13,25 +14,11 @@ namespace furrow::cli {
 namespace {
 
 struct QualityArguments : CommonArguments {
-  std::string mesh, strokes, base, picture;
-  double height = QualityJob{}.height;
-  std::optional<double> width, max_distance;
+  std::string mesh, picture;
+  QualityJob job;
   bool check = false;
   CameraArguments camera;
 };
-
-QualityJob job_of(const QualityArguments& a) {
-  QualityJob job;
-  job.mesh = std::filesystem::path(a.mesh);
-  if (!a.strokes.empty()) job.strokes = std::filesystem::path(a.strokes);
-  if (!a.base.empty()) job.base = std::filesystem::path(a.base);
-  job.frame = a;
-  job.height = a.height;
-  job.width = a.width;
-  job.max_distance = a.max_distance;
-  job.more_outputs = {a.picture, a.camera.save_camera};
-  return job;
-}
 
 void write_picture(const QualityReport& report, const QualityArguments& a) {
   const io::RenderScene scene = quality_scene(report);
@@ -40,10 +27,13 @@ void write_picture(const QualityReport& report, const QualityArguments& a) {
   save_camera(options, a.camera);
 }
 
-int quality(const QualityArguments& a) {
+int quality(QualityArguments& a) {
   check_picture(a.picture, "--picture");
+  a.job.mesh = std::filesystem::path(a.mesh);
+  a.job.frame = a;
+  a.job.more_outputs = {a.picture, a.camera.save_camera};
   Terminal terminal(a);
-  const QualityReport report = jobs::quality(job_of(a), terminal);
+  const QualityReport report = jobs::quality(a.job, terminal);
   if (!a.picture.empty()) write_picture(report, a);
   Json json = to_json(report);
   if (!a.picture.empty()) json["picture"] = a.picture;
@@ -63,17 +53,7 @@ void add_quality(CLI::App& app, int& exit_code) {
       "  furrow quality worn.ply --check\n\n"
       "Each measure stands beside its target. The exit code is 0, with --check 4 where one is missed.");
   sub->add_option("mesh", a->mesh, "mesh to measure, with folds or without")->required();
-  sub->add_option("--strokes", a->strokes,
-                  "lines of its folds: JSON, or the l elements of an OBJ file; none: those that the mesh, a "
-                  "wrinkled PLY, was made with, or the lines that it carries");
-  sub->add_option(
-      "--base", a->base,
-      "the garment before its folds, from which heights count; none: the one that the mesh names, "
-      "or where its vertices lay");
-  sub->add_option("--height", a->height, "of strokes that name none [m]")->capture_default_str();
-  sub->add_option("--width", a->width, "of strokes that name none [m]; none: as rule fold chooses it");
-  sub->add_option("--max-distance", a->max_distance,
-                  "of a stroke's point from the base [m]; none: as the lines were drawn with, or 0.05");
+  add_card(*sub, card(a->job));
   sub->add_option(
       "--picture", a->picture,
       "PNG to write: angle defects as colours, red domes and blue saddles, full at 400 rad/m^2; a "

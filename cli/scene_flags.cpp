@@ -25,7 +25,7 @@ std::string flags_of(const io::Setting& s) {
 std::string flag_name(const io::Setting& s) { return io::flag_of(s.keyword); }
 
 /// The group of --help that the settings of this table belong in.
-const char* group_of(const std::string& table, unsigned subcommand) {
+group group_of(const std::string& table, unsigned subcommand) {
   if (table == "material" || table == "garment") return group::cloth;
   if (table == "body" || table == "pins") return group::body;
   if (table == "output") return group::output;

@@ -4,8 +4,8 @@
 #include <iostream>
 #include <memory>
 
+#include "cli/card_options.h"
 #include "cli/common.h"
-#include "cli/help.h"
 #include "cli/print_text.h"
 #include "cli/scene_flags.h"
 #include "cli/subcommands.h"
@@ -17,21 +17,18 @@ namespace furrow::cli {
 namespace {
 
 struct SimulateArguments : CommonArguments {
-  std::string in, state;
-  double budget = 60;
-  std::string accuracy;
-  bool times = false;
-  CLI::Option* budget_option = nullptr;
-  std::optional<std::string> outputs_below;
+  std::string in;
+  SimulateJob job;
+  const CLI::App* typed = nullptr;
   SceneFlags flags;
 };
 
 /// Throws UsageError for an accuracy beside what it chooses, and a budget without one.
 void check_accuracy(const SimulateArguments& a, const SimulateJob& job) {
-  const std::string& accuracy = a.accuracy;
-  if (accuracy.empty() && a.budget_option->count())
+  if (!job.tolerance && a.typed->count("--budget"))
     throw UsageError("--budget bounds the choice for --accuracy 1%; give that, too, or leave out --budget");
-  if (accuracy.empty()) return;
+  if (!job.tolerance) return;
+  const std::string accuracy = a.typed->get_option("--accuracy")->as<std::string>();
   if (job.state)
     throw UsageError("--accuracy " + accuracy +
                      " judges a scene from its beginning; leave out one of the two");
@@ -44,17 +41,13 @@ void check_accuracy(const SimulateArguments& a, const SimulateJob& job) {
 }
 
 SimulateJob job_of(const SimulateArguments& a) {
-  SimulateJob job;
-  if (!a.state.empty()) job.state = io::read_state(a.state);
-  job.state_path = a.state;
-  job.scene.settings = scene_settings(a.in, a.state, job.state, a.flags, a);
-  job.scene.folder = std::filesystem::path(is_scene(a.in) ? a.in : a.state).parent_path();
+  SimulateJob job = a.job;
+  const std::string state = job.state_path.string();
+  if (!state.empty()) job.state = io::read_state(state);
+  job.scene.settings = scene_settings(a.in, state, job.state, a.flags, a);
+  job.scene.folder = std::filesystem::path(is_scene(a.in) ? a.in : state).parent_path();
   job.needs_output = a.quiet || !is_scene(a.in);
   check_accuracy(a, job);
-  if (!a.accuracy.empty()) job.tolerance = parse_share(a.accuracy, "--accuracy");
-  job.budget = a.budget;
-  job.times = a.times;
-  if (a.outputs_below) job.outputs_below = *a.outputs_below;
   return job;
 }
 
@@ -109,23 +102,9 @@ void add_simulate(CLI::App& app, int& exit_code) {
   sub->add_option(
       "garment", a->in,
       "garment to read (PLY of furrow wrinkle brings rest lengths and masses), or a scene: a .toml file");
-  begin_group(*sub, group::motion);
-  sub->add_option("--state", a->state, "go on from a saved state");
+  add_card(*sub, card(a->job));
   a->flags.add_to(*sub, io::used_by::simulate);
-  sub->add_option("--accuracy", a->accuracy,
-                  "error of the result that is accepted, as a share of the garment's diagonal, 1%: "
-                  "integrator and step are "
-                  "chosen for it");
-  begin_group(*sub, group::motion, Audience::few);
-  a->budget_option = sub->add_option(
-      "--budget", a->budget,
-      "predicted seconds of one thread that choosing for --accuracy 1% may take [s] (default 60)");
-  sub->add_option(
-      "--outputs-below", a->outputs_below,
-      "folder that the outputs named by a scene file must lie in (default: the scene's own folder)");
-  sub->add_flag(
-      "--times", a->times,
-      "report what processor time went to: assembly, factorisation, solve, elements, contact, output");
+  a->typed = sub;
   add_common_options(*sub, *a);
   sub->callback([a, &exit_code] { exit_code = simulate(*a); });
 }

@@ -3,8 +3,8 @@
 
 #include <memory>
 
+#include "cli/card_options.h"
 #include "cli/common.h"
-#include "cli/smoothing_options.h"
 #include "cli/subcommands.h"
 #include "jobs/base/read_inputs.h"
 
@@ -13,13 +13,15 @@ namespace {
 
 struct SmoothArguments : CommonArguments {
   std::string in;
-  SmoothingArguments smoothing;
+  SmoothJob job;
 };
 
-void smooth(const SmoothArguments& a) {
-  const SmoothJob job{std::filesystem::path(a.in), a, to_options(a.smoothing), a.out};
+void smooth(SmoothArguments& a) {
+  a.job.mesh = std::filesystem::path(a.in);
+  a.job.frame = a;
+  a.out = a.job.output.string();
   Terminal terminal(a);
-  const SmoothReport report = jobs::smooth(job, terminal);
+  const SmoothReport report = jobs::smooth(a.job, terminal);
   if (a.out == "-") write_mesh(report.mesh, in_frame(a, report.frame));
   Json json = to_json(report);
   json["written"] = a.out;
@@ -34,10 +36,8 @@ void add_smooth(CLI::App& app) {
                                      "Smooth a whole mesh without shrinking it (Taubin)\n\n  furrow smooth "
                                      "scan.ply -o smooth.ply --iterations 20");
   sub->add_option("mesh", a->in, "mesh to read")->required();
-  sub->add_option("-o,--output", a->out,
-                  "mesh to write: obj, ply, off, stl or glb; - is OBJ to standard output")
-      ->required();
-  add_smoothing_options(*sub, a->smoothing);
+  add_card(*sub, card(a->job));
+  sub->get_option("--output")->required();
   add_common_options(*sub, *a);
   sub->callback([a] { smooth(*a); });
 }

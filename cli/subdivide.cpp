@@ -3,8 +3,8 @@
 
 #include <memory>
 
+#include "cli/card_options.h"
 #include "cli/common.h"
-#include "cli/max_weights.h"
 #include "cli/subcommands.h"
 #include "jobs/base/read_inputs.h"
 
@@ -12,34 +12,23 @@ namespace furrow::cli {
 namespace {
 
 struct SubdivideArguments : CommonArguments {
-  std::string in, strokes, rule = "safe";
-  bool all = false;
-  int loop = 0, sqrt3 = 0, linear = 0;
-  std::optional<int> max_weights;
-  geometry::InsertionOptions options;
+  std::string in;
+  SubdivideJob job;
+  const CLI::App* typed = nullptr;
 };
 
-SubdivideJob job_of(const SubdivideArguments& a) {
-  if (!a.strokes.empty() + a.all + (a.loop > 0) + (a.sqrt3 > 0) + (a.linear > 0) != 1)
+void subdivide(SubdivideArguments& a) {
+  SubdivideJob& job = a.job;
+  std::size_t ways = 0;
+  for (const char* way : {"--strokes", "--all", "--subdivide", "--sqrt3", "--linear"})
+    ways += a.typed->count(way) > 0;
+  if (ways != 1 || job.steps == 0)
     throw UsageError("subdivide takes one of --strokes, --all, --subdivide, --sqrt3 and --linear");
-  SubdivideJob job{std::filesystem::path(a.in)};
-  job.refinement = !a.strokes.empty() ? Refinement::strokes
-                   : a.all            ? Refinement::everywhere
-                   : a.loop > 0       ? Refinement::loop
-                   : a.sqrt3 > 0      ? Refinement::sqrt3
-                                      : Refinement::linear;
-  job.steps = a.loop + a.sqrt3 + a.linear;  // one of them
-  job.strokes = std::filesystem::path(a.strokes);
+  const bool has_strokes = a.typed->count("--strokes");
+  if (has_strokes) job.refinement = Refinement::strokes;
+  job.mesh = std::filesystem::path(a.in);
   job.frame = a;
-  job.options = a.options;
-  job.options.rule = a.rule == "paper" ? geometry::InsertionRule::paper : geometry::InsertionRule::safe;
-  job.max_weights = a.max_weights;
-  job.output = a.out;
-  return job;
-}
-
-void subdivide(const SubdivideArguments& a) {
-  const SubdivideJob job = job_of(a);
+  a.out = job.output.string();
   Terminal terminal(a);
   const SubdivideReport report = jobs::subdivide(job, terminal);
   if (a.out == "-") write_mesh(report.mesh, in_frame(a, report.frame));
@@ -48,7 +37,7 @@ void subdivide(const SubdivideArguments& a) {
   print_report(json, a,
                {subdivide_lines(json),
                 {a.out},
-                a.out == "-" || !a.strokes.empty()
+                a.out == "-" || has_strokes
                     ? std::vector<std::string>{}
                     : std::vector<std::string>{"furrow", "wrinkle", a.out, "LINES", "-o", "wrinkled.ply"}});
 }
@@ -63,22 +52,10 @@ void add_subdivide(CLI::App& app) {
                          "  furrow subdivide shirt.obj --subdivide 2 -o fine.obj\n"
                          "  furrow subdivide shirt.obj --strokes lines.json -o lined.ply");
   sub->add_option("mesh", a->in, "mesh to read")->required();
-  sub->add_option("-o,--output", a->out,
-                  "mesh to write: obj, ply, off, stl or glb; - is OBJ to standard output")
-      ->required();
-  sub->add_option("--strokes", a->strokes, "insert lines: JSON, or the l elements of an OBJ file");
-  sub->add_flag("--all", a->all, "insert a vertex in every face and flip every edge");
-  sub->add_option("--subdivide", a->loop, "so many steps of Loop subdivision")->check(CLI::Range(0, 6));
-  sub->add_option("--sqrt3", a->sqrt3, "steps of sqrt(3) subdivision")->check(CLI::Range(0, 6));
-  sub->add_option("--linear", a->linear, "steps of cutting every triangle into four; the surface stays")
-      ->check(CLI::Range(0, 6));
-  add_max_weights(*sub, a->max_weights);
-  sub->add_option("--rule", a->rule, "safe or paper, for --strokes and --all")
-      ->check(CLI::IsMember({"safe", "paper"}))
-      ->capture_default_str();
-  sub->add_option("--max-distance", a->options.max_distance, "how far a stroke may lie from the surface [m]")
-      ->capture_default_str();
+  add_card(*sub, card(a->job));
+  sub->get_option("--output")->required();
   add_common_options(*sub, *a);
+  a->typed = sub;
   sub->callback([a] { subdivide(*a); });
 }
 

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 
+#include "cli/card_options.h"
 #include "cli/common.h"
 #include "cli/subcommands.h"
 #include "jobs/base/read_inputs.h"
@@ -12,17 +13,17 @@ namespace furrow::cli {
 namespace {
 
 struct TransferArguments : CommonArguments {
-  std::string original, wrinkled, rest, body;
-  geometry::TransferOptions options;
+  std::string original, wrinkled;
+  TransferJob job;
 };
 
-void transfer(const TransferArguments& a) {
-  using Path = std::filesystem::path;
-  TransferJob job{Path(a.original), Path(a.wrinkled), {}, {}, a, a.options, a.out};
-  if (!a.body.empty()) job.body = Path(a.body);
-  if (!a.rest.empty()) job.rest = Path(a.rest);
+void transfer(TransferArguments& a) {
+  a.job.original = std::filesystem::path(a.original);
+  a.job.wrinkled = std::filesystem::path(a.wrinkled);
+  a.job.frame = a;
+  a.out = a.job.output.string();
   Terminal terminal(a);
-  const TransferReport report = jobs::transfer(job, terminal);
+  const TransferReport report = jobs::transfer(a.job, terminal);
   if (a.out == "-" && report.obj_text) {
     std::cout << *report.obj_text;
     flush_output();
@@ -48,16 +49,8 @@ void add_transfer(CLI::App& app) {
   sub->add_option("original", a->original, "mesh whose vertices are to move")->required();
   sub->add_option("wrinkled", a->wrinkled, "mesh of wrinkle or simulate; PLY knows where its vertices lay")
       ->required();
-  sub->add_option("-o,--output", a->out,
-                  "mesh to write: obj, ply, off, stl or glb; - is OBJ to standard output")
-      ->required();
-  sub->add_option("--rest-shape", a->rest,
-                  "the wrinkled mesh's vertices before lines and motion, if it is no PLY");
-  sub->add_option("--body", a->body,
-                  "body that it is worn on, in the same frame: where it comes through the mesh is reported");
-  sub->add_option("--max-distance", a->options.max_distance,
-                  "how far an original vertex may lie from the wrinkled mesh's rest surface [m]")
-      ->capture_default_str();
+  add_card(*sub, card(a->job));
+  sub->get_option("--output")->required();
   add_common_options(*sub, *a);
   sub->callback([a] { transfer(*a); });
 }

@@ -4,14 +4,18 @@
 #include <iostream>
 #include <memory>
 
+#include "cli/camera_options.h"
+#include "cli/card_options.h"
 #include "cli/help.h"
 #include "cli/print_text.h"
 #include "cli/scene_flags.h"
 #include "cli/subcommands.h"
-#include "cli/wrinkle_drawing.h"
+#include "geometry/mesh/errors.h"
+#include "io/base/field_words.h"
 #include "io/base/lower_case.h"
 #include "io/picture/png_file.h"
 #include "io/scene/relocated.h"
+#include "io/scene/scene_rules.h"
 #include "jobs/base/read_inputs.h"
 #include "jobs/chain/wrinkle_stages.h"
 #include "jobs/cloth/fabric_file.h"
@@ -21,6 +25,14 @@
 
 namespace furrow::cli {
 namespace {
+
+struct WrinkleArguments : CommonArguments {
+  std::string in, strokes, state, inserted, smoothed, preview;
+  WrinkleJob job;
+  SceneFlags flags;  ///< of --rest keep and --settle
+  CameraArguments camera;
+  const CLI::App* typed = nullptr;  ///< what was on the command line
+};
 
 void check_call(const WrinkleArguments& a) {
   if (a.state.empty() && io::ending_of(a.in) == ".json")
@@ -32,10 +44,10 @@ void check_call(const WrinkleArguments& a) {
   check_folder(a.camera.save_camera);
   if (!a.state.empty()) refuse_same(a.out, a.in);  // with --state these are the strokes
   const std::string flag = a.flags.first();
-  if (!flag.empty() && a.rest != "keep" && !a.settle)
+  if (!flag.empty() && !a.job.keep && !a.job.settle)
     throw UsageError(flag + ": goes with --rest keep or --settle; furrow simulate chooses it otherwise");
-  if (a.settle && a.out.empty()) throw UsageError("--settle goes with -o");
-  if (!a.subdivide.empty() && !a.settle)
+  if (a.job.settle && a.out.empty()) throw UsageError("--settle goes with -o");
+  if (a.typed->count("--subdivide") && !a.job.settle)
     throw UsageError("--subdivide goes with --settle; furrow subdivide refines a garment by itself");
   if (a.smoothed == "-")
     throw UsageError("--smoothed: only the garment at the end (-o) can go to standard output");
@@ -46,15 +58,33 @@ void check_call(const WrinkleArguments& a) {
 /// With --state the one file that is named is that of the strokes.
 void take_state(const WrinkleArguments& a, WrinkleJob& job) {
   if (!a.strokes.empty()) throw UsageError(a.in + ": --state has its garment; leave out the mesh");
-  if (a.density) throw UsageError("--density: furrow simulate --state S --density changes that of a state");
+  if (job.density) throw UsageError("--density: furrow simulate --state S --density changes that of a state");
   job.state = io::read_state(a.state);
   job.state_path = a.state;
   job.strokes = std::filesystem::path(a.in);
 }
 
+/// Takes over the options that a wrinkled mesh was made with; those of the command line go over them.
+void take_recorded_options(const WrinkleArguments& a, WrinkleJob& job, const std::string& recorded) {
+  CLI::App flags;
+  add_card(flags, drawing_card(job));
+  std::vector<std::string> again;
+  for (const CLI::Option* option : a.typed->get_options())
+    if (option->count() > 0 && !option->get_lnames().empty())
+      if (const std::string name = "--" + option->get_lnames()[0]; flags.get_option_no_throw(name))
+        again.push_back(name + "=" + option->results().back());
+  try {
+    flags.parse(recorded);
+    job.hold = job.options.rest == geometry::RestRule::drawn;  // which every record names
+    flags.parse(std::move(again));
+  } catch (const CLI::ParseError& e) {
+    throw geometry::ContentError(a.in + ": the options in its record cannot be read: " + e.what());
+  }
+}
+
 /// The garment, strokes and options that a wrinkled mesh was made with, and over them those of the command
 /// line.
-void draw_again(WrinkleArguments& a, WrinkleJob& job) {
+void draw_again(const WrinkleArguments& a, WrinkleJob& job) {
   refuse_same({a.out, a.inserted, a.preview, a.camera.save_camera}, {a.in});
   Terminal terminal(a);
   Frame frame = a;
@@ -64,8 +94,8 @@ void draw_again(WrinkleArguments& a, WrinkleJob& job) {
     if (a.typed->count(option))
       throw UsageError(option + (": the strokes of " + a.in) +
                        " have theirs; change them with furrow strokes --change, and draw that file");
-  take_recorded_options(a, recorded.options);
-  if (a.rest != "keep" && recorded.was_kept)
+  take_recorded_options(a, job, recorded.options);
+  if (!job.keep && recorded.was_kept)
     warn(a.in + " was kept; its lines are drawn again without that: add --rest keep, or keep the result", a);
   refuse_same({a.out, a.inserted, a.preview, a.camera.save_camera}, {recorded.garment.string()});
   job.frame = frame;
@@ -74,18 +104,17 @@ void draw_again(WrinkleArguments& a, WrinkleJob& job) {
 }
 
 /// Options that the rule in use would not look at are refused, rather than ignored.
-void check_rule(const WrinkleArguments& a) {
-  const bool folds = a.rule == "fold";
-  const auto refuse = [&](std::initializer_list<const char*> options, const char* help) {
-    for (const char* option : options)
-      if (a.typed->count(option))
-        throw UsageError(std::string(option) + ": the rule " + a.rule + " does not use it; " + help);
-  };
-  if (folds)
-    refuse({"--iterations", "--weights", "--keep-lines", "--keep-border", "--region"},
-           "it goes with --rule safe or --rule paper (fold has --fold-iterations)");
-  else
-    refuse({"--detail", "--fold-iterations", "--flat-base"}, "it goes with --rule fold");
+void check_rule(const WrinkleArguments& a, const WrinkleJob& job) {
+  const geometry::InsertionRule rule = job.options.insertion.rule;
+  const bool folds = rule == geometry::InsertionRule::fold;
+  for (const std::string& option : io::options_without_use(rule))
+    if (a.typed->count(io::flag_of(option)))
+      throw UsageError("`" + option + "`: the rule " +
+                       (folds                                   ? "fold"
+                        : rule == geometry::InsertionRule::safe ? "safe"
+                                                                : "paper") +
+                       " does not use it; it goes with `rule=" +
+                       (folds ? "safe` or `rule=paper` (fold has `fold_iterations`)" : "fold`"));
 }
 
 /// What a garment is kept in, or comes to rest in: material, forces, pins and body of the state, or of flags.
@@ -96,16 +125,16 @@ SceneInput surroundings(const WrinkleArguments& a, const WrinkleJob& job) {
   a.flags.apply(document);
   jobs::take_fabric_file(document, job.state_path.parent_path());
   if (!job.state) jobs::take_recorded_material(document, a.in);
-  // Of a mesh drawn again, a.density is that of its record: the fabric's goes before it.
+  // Of a mesh drawn again, job.density is that of its record: the fabric's goes before it.
   const bool has_fabric = document.root->value("material", Json::object()).contains("preset");
-  if (a.density && (a.typed->count("--density") || !has_fabric))
-    io::set_value(document, "material.density", *a.density, "--density");
-  if (a.rest == "keep" && !a.settle) io::set_value(document, "garment.rest", "keep", "`rest=keep`");
+  if (job.density && (a.typed->count("--density") || !has_fabric))
+    io::set_value(document, "material.density", *job.density, "--density");
+  if (job.keep && !job.settle) io::set_value(document, "garment.rest", "keep", "`rest=keep`");
   return {document, job.state_path.parent_path()};
 }
 
-WrinkleJob job_of(WrinkleArguments& a) {
-  WrinkleJob job;
+WrinkleJob job_of(const WrinkleArguments& a) {
+  WrinkleJob job = a.job;
   job.frame = a;
   if (!a.state.empty()) {
     take_state(a, job);
@@ -115,23 +144,9 @@ WrinkleJob job_of(WrinkleArguments& a) {
     job.garment = std::filesystem::path(a.in);
     job.strokes = std::filesystem::path(a.strokes);
   }
-  check_rule(a);
-  job.without = a.without;
-  job.height = a.height;
-  job.width = a.width;
-  job.fade = a.fade;
-  job.options = to_options(a);
-  job.density = a.density;
-  job.max_weights = a.max_weights;
-  if (a.rest == "keep" && !a.settle) job.keep = surroundings(a, job);
-  if (a.settle) job.settle = surroundings(a, job);
-  job.hold = a.rest == "keep" || (a.rest == "drawn" && !a.typed->count("--rest"));
-  job.made_for = a.made_for;
-  job.smoothed = a.smoothed;
-  if (!a.subdivide.empty() && a.subdivide != "auto") job.subdivide = std::stoi(a.subdivide);
-  job.output = a.out;
-  job.budget = a.budget;
-  job.inserted = a.inserted;
+  check_rule(a, job);
+  if (job.keep) job.keep = surroundings(a, job);
+  if (job.settle) job.settle = surroundings(a, job);
   job.wants_stages = !a.preview.empty();
   job.more_outputs = {a.preview, a.camera.save_camera};
   job.more_inputs = {a.camera.camera};
@@ -145,11 +160,11 @@ void write_preview(const WrinkleReport& report, const WrinkleArguments& a) {
   save_camera(options, a.camera);
 }
 
-int wrinkle(WrinkleArguments a) {
+int wrinkle(const WrinkleArguments& a) {
   check_call(a);
-  if (a.settle) catch_interrupts();
+  if (a.job.settle) catch_interrupts();
   const WrinkleJob job = job_of(a);
-  Terminal terminal(a, a.settle ? a.budget : unlimited);
+  Terminal terminal(a, a.job.settle ? a.job.budget : unlimited);
   const WrinkleReport report = jobs::wrinkle(job, terminal);
   const CommonArguments common = in_frame(a, report.frame);
   if (!a.preview.empty()) write_preview(report, a);
@@ -167,7 +182,7 @@ int wrinkle(WrinkleArguments a) {
   print_report(json, a,
                {wrinkle_lines(json), {a.out, a.inserted, a.smoothed, a.preview, a.camera.save_camera}, next});
   for (const Warning& w : report.failures) std::cerr << "error: " << worded(w.text) << "\n";
-  if (report.budget_spent) report_spent_budget(a.budget, {a.out});
+  if (report.budget_spent) report_spent_budget(a.job.budget, {a.out});
   return exit_code_of(interrupted(), report.failures.empty() && !report.budget_spent);
 }
 
@@ -191,51 +206,24 @@ void add_wrinkle(CLI::App& app, int& exit_code) {
       "strokes,--strokes", a->strokes,
       "lines: JSON, or the l elements of an OBJ file; none: those that the mesh, a wrinkled PLY, was "
       "made with are drawn again on its garment, with its options");
-  sub->add_option(
-      "--state", a->state,
-      "draw into a simulation that was stopped (furrow simulate --save-state); -o is a state, too");
-  sub->add_option("--without", a->without, "leave out the stroke of this name; may be given several times")
-      ->allow_extra_args(false);
-  begin_group(*sub, group::lines, Audience::few);
-  sub->add_option("--fade", a->fade,
-                  "with --state: how slowly the forces of the new lines set in [s]; inf: never")
-      ->capture_default_str();
-  begin_group(*sub, group::output);
-  sub->add_option("-o,--output", a->out, "mesh to write; PLY keeps rest lengths, masses and lines");
-  begin_group(*sub, group::output, Audience::few);
-  sub->add_option("--inserted", a->inserted, "also write the mesh after insertion and before smoothing");
-  sub->add_option("--smoothed", a->smoothed, "with --settle: also write the garment as drawn");
-  begin_group(*sub, group::rest);
-  sub->add_flag(
-      "--settle", a->settle,
-      "let what is drawn come to rest, as furrow drape does: on --body, on pins or on both, in --fabric "
-      "(cotton), with lines that last: what gives way is pressed (--rest drawn: as it falls); -o is the "
-      "garment at rest");
-  sub->add_option(
-         "--subdivide", a->subdivide,
-         "with --settle: refine the garment so many times (Loop) before its lines are drawn, 0 to 4; auto "
-         "(the default): as often as its edges need to keep the gap from the body")
-      ->check(CLI::IsMember({"auto", "0", "1", "2", "3", "4"}));
-  add_budget_option(*sub, a->budget, "with --settle, the best state so far is written, with exit code 4");
-  begin_group(*sub, group::rest, Audience::few);
-  sub->add_option(
-      "--made-for", a->made_for,
-      "with --settle: body that the garment was made for and lies about, in its unit; what is drawn is "
-      "brought from there to --body in its own size (furrow drape)");
+  add_card(*sub, card(a->job));
   begin_group(*sub, group::picture);
   sub->add_option(
       "--picture", a->preview,
       "PNG of what is inserted where, before anything is displaced, faces that cross in magenta; without "
       "-o no mesh is written");
-  add_drawing_options(*sub, *a);
   a->flags.add_to(*sub, io::used_by::wrinkle);
-  begin_group(*sub, group::lines, Audience::few);
-  add_smoothing_options(*sub, a->smoothing);
   a->camera.quality = "draft";  // a look before anything is changed: four times faster than normal
   add_camera_options(*sub, a->camera);
   add_common_options(*sub, *a);
   a->typed = sub;
-  sub->callback([a, &exit_code] { exit_code = wrinkle(*a); });
+  sub->callback([a, &exit_code] {
+    a->out = a->job.output.string();
+    a->inserted = a->job.inserted.string();
+    a->smoothed = a->job.smoothed.string();
+    a->state = a->job.state_path.string();
+    exit_code = wrinkle(*a);
+  });
 }
 
 }  // namespace furrow::cli

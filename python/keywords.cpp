@@ -11,8 +11,6 @@
 namespace furrow::python {
 namespace {
 
-const char* const units = "\"m\", \"cm\", \"mm\", \"inch\"";
-
 bool has_keyword(const io::Setting& s, unsigned subcommand) {
   return !s.keyword.empty() && (s.flag_in & subcommand);
 }
@@ -101,25 +99,7 @@ Call::Call(py::dict keywords, py::object on_warning) {
   for (const auto& [key, value] : keywords)
     if (!value.is_none())
       given_.emplace_back(py::cast<std::string>(key), py::reinterpret_borrow<py::object>(value));
-  const auto word = [](const char* name, const char* words, auto at) {
-    std::vector<std::pair<std::string, std::string>> list;
-    for (const std::string& w : std::string(words) == units
-                                    ? std::vector<std::string>{"m", "cm", "mm", "inch"}
-                                    : std::vector<std::string>{"y", "z"})
-      list.emplace_back(w, w);
-    return choice<Call>(name, "", list, at);
-  };
-  const Keywords<Call> common = {
-      word(
-          "unit", units, [](Call & c) -> auto& { return c.frame.unit; }),
-      word(
-          "up", "", [](Call & c) -> auto& { return c.frame.up; }),
-      row<Call>(
-          "force", "", [](Call & c) -> auto& { return c.listener.force; }),
-      row<Call>(
-          "replace", "", [](Call & c) -> auto& { return c.listener.replace; }),
-  };
-  apply(common, *this);
+  apply(keywords_of(jobs::common_card(frame, listener.force, listener.replace)));
   for (const auto& [name, value] : given_) {
     if (name != "progress" && name != "cancel") continue;
     if (!PyCallable_Check(value.ptr())) Value{name, value}.fail("callable");
@@ -181,13 +161,13 @@ void Call::require_all_used(const std::vector<KeywordWords>& known) const {
 }
 
 std::vector<KeywordWords> common_keywords() {
-  return {{"unit", std::string("Literal[") + units + "]",
-           "unit of length in the mesh and stroke files; default m, or what a mesh of furrow notes"},
-          {"up", "Literal[\"y\", \"z\"]", "axis that points up in those files; default y, or as noted"},
-          {"force", "bool", "go on where a body, a tolerance or a step asks for very much memory or time"},
-          {"replace", "bool", "write over files that furrow did not write"},
-          {"progress", "Progress", "called with (what, share in [0, 1]), at most every 50 ms"},
-          {"cancel", "Cancel", "asked about every 50 ms; True: the job ends"}};
+  jobs::Frame frame;
+  PythonListener listener;
+  const Keywords rows = keywords_of(jobs::common_card(frame, listener.force, listener.replace));
+  std::vector<KeywordWords> words(rows.begin(), rows.end());
+  words.push_back({"progress", "Progress", "called with (what, share in [0, 1]), at most every 50 ms"});
+  words.push_back({"cancel", "Cancel", "asked about every 50 ms; True: the job ends"});
+  return words;
 }
 
 std::vector<KeywordWords> setting_keywords(unsigned subcommand) {
@@ -221,16 +201,21 @@ std::string garment_name(const jobs::SceneInput& scene) {
   return std::filesystem::path(mesh).stem().string();
 }
 
-void take_share(const Value& value, double& target) {
-  if (py::isinstance<py::str>(value.given)) {
-    const std::string text = py::cast<std::string>(value.given);
-    char* end = nullptr;
-    target = std::strtod(text.c_str(), &end) / 100;
-    if (end == text.c_str() || std::string(end) != "%") value.fail("a share such as 0.01 or \"1%\"");
-  } else {
-    take(value, target);
-  }
-  if (!(target > 0 && target < 1)) value.fail("a share above 0 and below 1");
+void Call::apply(const Keywords& rows) {
+  for (const auto& [name, given] : given_)
+    for (const Keyword& row : rows)
+      if (row.name == name) {
+        used_.insert(name);
+        row.set(Value{name, given});
+      }
+}
+
+std::vector<KeywordWords> words_of(const Keywords& rows, unsigned subcommand) {
+  std::vector<KeywordWords> words(rows.begin(), rows.end());
+  for (auto& list :
+       {subcommand ? setting_keywords(subcommand) : std::vector<KeywordWords>{}, common_keywords()})
+    words.insert(words.end(), list.begin(), list.end());
+  return words;
 }
 
 }  // namespace furrow::python

@@ -3,12 +3,13 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <type_traits>
 
+#include "jobs/base/card.h"
 #include "python/listener.h"
 
 /// The keyword arguments of jobs: a row each, from which the call, its docstring and its stub are made. Names
-/// are those of the command line's flags, with underscores.
+/// are those of the command line's flags, with underscores. Those of a job's card (jobs/base/card.h) need no
+/// more.
 namespace furrow::python {
 
 /// What Python is told of a keyword.
@@ -18,59 +19,13 @@ struct KeywordWords {
 };
 
 /// One keyword, and how its value reaches the job.
-template <class Job>
-struct Keyword {
-  KeywordWords words;
-  std::function<void(const Value&, Job&)> set;
+struct Keyword : KeywordWords {
+  std::function<void(const Value&)> set;
 };
+using Keywords = std::vector<Keyword>;
 
-template <class T>
-std::string type_text() {
-  if constexpr (std::is_same_v<T, double>) return "float";
-  if constexpr (std::is_same_v<T, int>) return "int";
-  if constexpr (std::is_same_v<T, bool>) return "bool";
-  if constexpr (std::is_same_v<T, std::string>) return "str";
-  if constexpr (std::is_same_v<T, std::filesystem::path>) return "Path";
-  if constexpr (std::is_same_v<T, jobs::MeshInput>) return "Mesh | Path";
-  if constexpr (std::is_same_v<T, jobs::StrokeInput>) return "Strokes";
-  if constexpr (requires { typename T::value_type; } && !std::is_same_v<T, std::string> &&
-                !std::is_same_v<T, std::filesystem::path>) {
-    using Item = typename T::value_type;
-    const std::string item = type_text<Item>();
-    return std::is_same_v<T, std::vector<Item>> ? item + " | Sequence[" + item + "]" : item;
-  }
-}
-
-/// A field of the job, of the type that it has: [](auto& job) -> auto& { return job.field; }.
-template <class Job, class At>
-Keyword<Job> row(const char* name, const char* help, At at) {
-  using Field = std::remove_cvref_t<decltype(at(std::declval<Job&>()))>;
-  return {{name, type_text<Field>(), help}, [at](const Value& value, Job& job) { take(value, at(job)); }};
-}
-
-template <class Job, class Word, class At>
-Keyword<Job> choice(const char* name, const char* help, std::vector<std::pair<std::string, Word>> words,
-                    At at) {
-  std::string list;
-  for (const auto& [word, value] : words) list += (list.empty() ? "\"" : ", \"") + word + "\"";
-  const auto set = [words, list, at](const Value& value, Job& job) {
-    std::string given;
-    if (is_text(value.given)) take(value, given);
-    for (const auto& [word, meant] : words)
-      if (word == given) return void(at(job) = meant);
-    value.fail("one of " + list);
-  };
-  return {{name, "Literal[" + list + "]", help}, set};
-}
-
-template <class Job>
-Keyword<Job> own(const char* name, const char* type, const char* help,
-                 std::function<void(const Value&, Job&)> set) {
-  return {{name, type, help}, std::move(set)};
-}
-
-template <class Job>
-using Keywords = std::vector<Keyword<Job>>;
+/// A keyword for each row of a job's card, which set the fields that it is bound to.
+Keywords keywords_of(const std::vector<jobs::CardRow>& card);
 
 /// A call of a job: its keywords, of which None counts as not given, and who listens.
 class Call {
@@ -81,15 +36,7 @@ class Call {
   jobs::Frame frame;  ///< of keywords unit and up
 
   /// Those that the rows know are set in the job.
-  template <class Job>
-  void apply(const Keywords<Job>& rows, Job& job) {
-    for (const auto& [name, given] : given_)
-      for (const Keyword<Job>& row : rows)
-        if (row.words.name == name) {
-          used_.insert(name);
-          row.set(Value{name, given}, job);
-        }
-  }
+  void apply(const Keywords& rows);
   bool has(const std::string& name) const { return bool(value(name)); }
   py::object value(const std::string& name) const;  ///< as it was given; null: it was not
   /// Sets what the settings of a scene know: the keywords of flags that the subcommand has (one of
@@ -109,14 +56,12 @@ class Call {
 std::vector<KeywordWords> common_keywords();
 std::vector<KeywordWords> setting_keywords(unsigned subcommand);
 
+std::vector<KeywordWords> words_of(const Keywords& rows, unsigned subcommand = 0);
+/// Of a job all of whose keywords are on its card.
 template <class Job>
-std::vector<KeywordWords> words_of(const Keywords<Job>& rows, unsigned subcommand = 0) {
-  std::vector<KeywordWords> words;
-  for (const auto& row : rows) words.push_back(row.words);
-  for (auto& list :
-       {subcommand ? setting_keywords(subcommand) : std::vector<KeywordWords>{}, common_keywords()})
-    words.insert(words.end(), list.begin(), list.end());
-  return words;
+std::vector<KeywordWords> words_of_card(unsigned subcommand = 0) {
+  Job job;
+  return words_of(keywords_of(card(job)), subcommand);
 }
 
 /// A scene as a call names it: a mesh in memory or its file, a scene's file, a dict of settings, or None
@@ -132,9 +77,6 @@ CalledScene called_scene(py::handle garment, unsigned subcommand, const std::fil
 
 /// The garment's file's name, without folder and ending.
 std::string garment_name(const jobs::SceneInput& scene);
-
-/// A share in (0, 1): 0.01, or "1%".
-void take_share(const Value& value, double& target);
 
 /// What a job comes to.
 struct Outcome {

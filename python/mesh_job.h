@@ -13,9 +13,9 @@ inline std::string name_of(py::handle mesh) {
 
 /// Sets the job's keywords and its frame.
 template <class Job>
-void take_keywords(const Keywords<Job>& rows, Call& call, Job& job) {
-  call.apply(rows, job);
-  call.require_all_used(words_of(rows));
+void take_keywords(Call& call, Job& job) {
+  call.apply(keywords_of(card(job)));
+  call.require_all_used(words_of_card<Job>());
   job.frame = call.frame;
 }
 

@@ -15,46 +15,25 @@ namespace {
 
 // ---- simulate
 
-struct SimulateCall {
-  jobs::SimulateJob job;
-  std::filesystem::path state;
-};
-
-const Keywords<SimulateCall>& simulate_rows() {
-  static const Keywords<SimulateCall> rows = {
-      row<SimulateCall>(
-          "state", "a saved state to go on from; then without a garment",
-          [](auto& c) -> auto& { return c.state; }),
-      own<SimulateCall>(
-          "accuracy", "float | str",
-          "error of the result that is accepted, as a share of the garment's diagonal, in (0, 1): "
-          "integrator and step are chosen for it",
-          [](const Value& v, SimulateCall& c) { take_share(v, c.job.tolerance.emplace()); }),
-      row<SimulateCall>(
-          "budget", "predicted seconds of one thread that choosing for accuracy may take; default 60",
-          [](auto& c) -> auto& { return c.job.budget; }),
-      row<SimulateCall>(
-          "outputs_below", "folder that outputs named by a scene file must lie in; default the scene's",
-          [](auto& c) -> auto& { return c.job.outputs_below; }),
-      row<SimulateCall>(
-          "times", "tell what the processor's time goes to", [](auto& c) -> auto& { return c.job.times; }),
-      own<SimulateCall>(
-          "watch", "Watch",
-          "called with (time [s], positions n x 3 [m], a copy) as the run goes on, at most every "
-          "0.2 s or at each long step",
-          [](const Value& v, SimulateCall&) {
-            if (!PyCallable_Check(v.given.ptr())) v.fail("callable");
-          }),
-  };
-  return rows;
+/// Those of its card, and who watches.
+Keywords simulate_keywords(jobs::SimulateJob& job) {
+  Keywords keywords = keywords_of(card(job));
+  keywords.push_back(
+      {{"watch", "Watch",
+        "called with (time [s], positions n x 3 [m], a copy) as the run goes on, at most every 0.2 s "
+        "or at each long step"},
+       [](const Value& v) {
+         if (!PyCallable_Check(v.given.ptr())) v.fail("callable");
+       }});
+  return keywords;
 }
 
-void check_accuracy(const SimulateCall& c, const Call& call) {
-  if (!c.job.tolerance && call.has("budget"))
+void check_accuracy(const jobs::SimulateJob& job, const Call& call) {
+  if (!job.tolerance && call.has("budget"))
     throw std::invalid_argument(
         "budget: it bounds the choice for accuracy; give that, too, or leave out budget");
-  if (!c.job.tolerance) return;
-  if (!c.state.empty())
+  if (!job.tolerance) return;
+  if (!job.state_path.empty())
     throw std::invalid_argument(
         "accuracy: it judges a scene from its beginning; leave out accuracy or state");
   for (const char* chosen : {"integrator", "dt", "sweeps"})
@@ -80,16 +59,16 @@ Outcome outcome_of(jobs::SimulateReport&& report, const std::string& garment) {
 }
 
 Outcome simulate(const py::list& inputs, Call& call, const jobs::Watch& watch) {
-  SimulateCall c;
-  call.apply(simulate_rows(), c);
-  CalledScene scene = called_scene(inputs[0], io::used_by::simulate, c.state, call);
-  call.require_all_used(words_of(simulate_rows(), io::used_by::simulate));
-  check_accuracy(c, call);
-  c.job.scene = std::move(scene.input);
-  c.job.state = std::move(scene.state);
-  c.job.state_path = scene.state_path;
-  c.job.watch = watch;
-  return outcome_of(without_lock(c.job, call, jobs::simulate), garment_name(c.job.scene));
+  jobs::SimulateJob job;
+  call.apply(simulate_keywords(job));
+  CalledScene scene = called_scene(inputs[0], io::used_by::simulate, job.state_path, call);
+  call.require_all_used(words_of(simulate_keywords(job), io::used_by::simulate));
+  check_accuracy(job, call);
+  job.scene = std::move(scene.input);
+  job.state = std::move(scene.state);
+  job.state_path = scene.state_path;
+  job.watch = watch;
+  return outcome_of(without_lock(job, call, jobs::simulate), garment_name(job.scene));
 }
 
 /// What `watch` is called with, in the thread of the call; it takes the interpreter's lock.
@@ -108,33 +87,15 @@ jobs::Watch watch_of(Call& call, const py::object& callable) {
 
 // ---- chart
 
-const Keywords<jobs::ChartJob>& chart_rows() {
-  using Job = jobs::ChartJob;
-  static const Keywords<Job> rows = {
-      row<Job>(
-          "output", "picture to draw: svg or png, by gnuplot; its numbers as .csv beside it",
-          [](auto& j) -> auto& { return j.picture; }),
-      row<Job>(
-          "csv", "file for the chart's numbers", [](auto& j) -> auto& { return j.csv; }),
-      own<Job>("accuracy", "float | str",
-               "error that is accepted, as a share of the garment's diagonal; default 0.01",
-               [](const Value& v, Job& j) { take_share(v, j.options.tolerance); }),
-      row<Job>(
-          "budget", "predicted seconds of one thread for all runs [s], > 0; default 60",
-          [](auto& j) -> auto& { return j.options.budget; }),
-  };
-  return rows;
-}
-
 std::vector<KeywordWords> chart_words() {
-  std::vector<KeywordWords> words = words_of(chart_rows());
+  std::vector<KeywordWords> words = words_of_card<jobs::ChartJob>();
   words.push_back(setting_keywords(io::used_by::nobody).back());  // settings alone
   return words;
 }
 
 Outcome chart(const py::list& inputs, Call& call) {
   jobs::ChartJob job;
-  call.apply(chart_rows(), job);
+  call.apply(keywords_of(card(job)));
   job.name = py::isinstance<HeldMesh>(inputs[0]) || py::isinstance<py::dict>(inputs[0])
                  ? "scene"
                  : py::cast<std::string>(py::str(inputs[0]));
@@ -153,11 +114,12 @@ Outcome chart(const py::list& inputs, Call& call) {
 }  // namespace
 
 void add_scene_jobs(std::vector<Runner>& runners) {
-  runners.push_back(
-      {"simulate", words_of(simulate_rows(), io::used_by::simulate), [](const py::list& inputs, Call& call) {
-         const py::object callable = call.value("watch");
-         return simulate(inputs, call, watch_of(call, callable));
-       }});
+  jobs::SimulateJob none;
+  runners.push_back({"simulate", words_of(simulate_keywords(none), io::used_by::simulate),
+                     [](const py::list& inputs, Call& call) {
+                       const py::object callable = call.value("watch");
+                       return simulate(inputs, call, watch_of(call, callable));
+                     }});
   runners.push_back({"chart", chart_words(), chart});
 }
 

@@ -44,21 +44,25 @@ void check_threads(SettingsTable& table, const SceneMaterial& m) {
 
 }  // namespace
 
+std::vector<std::string> options_without_use(geometry::InsertionRule rule) {
+  if (rule == geometry::InsertionRule::fold)
+    return {"iterations", "weights", "keep_lines", "keep_border", "region"};
+  return {"detail", "fold_iterations", "flat_base"};
+}
+
 void check_lines(SettingsTable& table, const Scene& scene) {
   const SceneLines& lines = scene.lines.back();
   if (lines.strokes.empty()) table.fail("strokes", "is missing: name a stroke file");
   if (scene.lines.size() > 1 && lines.time < scene.lines[scene.lines.size() - 2].time)
     table.fail("time", "is before that of the lines above; write rounds of lines in their order");
-  if (lines.options.insertion.rule == geometry::InsertionRule::fold) {
-    for (const char* key : {"iterations", "weights", "keep_lines", "keep_border", "region"})
-      if (table.has(key))
-        table.fail(key,
-                   "goes with rule = \"safe\" or \"paper\", which this round does not name; the rule fold "
-                   "has fold_iterations");
-  } else {
-    for (const char* key : {"detail", "fold_iterations", "flat_base"})
-      if (table.has(key)) table.fail(key, "goes with rule = \"fold\"");
-  }
+  const geometry::InsertionRule rule = lines.options.insertion.rule;
+  for (const std::string& key : options_without_use(rule))
+    if (table.has(key.c_str()))
+      table.fail(key,
+                 rule == geometry::InsertionRule::fold
+                     ? "goes with rule = \"safe\" or \"paper\", which this round does not name; the rule "
+                       "fold has fold_iterations"
+                     : "goes with rule = \"fold\"");
 }
 
 void check_body(SettingsTable& table, const Scene& scene) {

@@ -7,6 +7,9 @@
 /// geometry::ContentError that names the place of a setting.
 namespace furrow::io {
 
+/// Settings of lines, and options of `wrinkle`, that drawing by this rule would not look at.
+std::vector<std::string> options_without_use(geometry::InsertionRule rule);
+
 void check_lines(SettingsTable& table, const Scene& scene);  ///< of the last round
 void check_body(SettingsTable& table, const Scene& scene);
 void check_material(SettingsTable& table, const Scene& scene);

@@ -121,6 +121,8 @@ struct MemoryFiles {
 
 using Json = nlohmann::ordered_json;
 
+struct CardRow;  ///< an option of a job (jobs/base/card.h)
+
 /// What every step of a job is given: the frame of its files, who listens, and what is in memory.
 struct Context {
   Frame frame;

@@ -5,6 +5,7 @@
 
 #include "geometry/figure/repair_body.h"
 #include "geometry/mesh/self_intersections.h"
+#include "jobs/base/card.h"
 #include "jobs/base/output_checks.h"
 #include "jobs/base/read_inputs.h"
 #include "physics/base/cancel_scope.h"
@@ -21,10 +22,13 @@ Json measures_json(const geometry::BodyMeasures& m) {
   return json;
 }
 
+constexpr Range of_height{0.9, 2.5, false, false, true}, of_girth{0.3, 3, false, false, true};
+
 }  // namespace
 
 BodyReport shape_body(const BodyJob& job, Listener& listener) {
   const physics::CancelScope cancelling([&listener] { return listener.cancelled(); });
+  check_card(job);
   if (!job.output.empty()) check_output(job.output.string());
   check_replaced({job.output.string()}, {name_of(job.mesh, "")}, listener);
   BodyReport report{{}, job.measures, {}, 0, job.frame};
@@ -44,6 +48,16 @@ BodyReport shape_body(const BodyJob& job, Listener& listener) {
   stop_if_cancelled(context);
   if (!job.output.empty() && job.output != "-") write_mesh(job.output, report.mesh, context);
   return report;
+}
+
+std::vector<CardRow> card(BodyJob& job) {
+  return {
+      {"output", &job.output, "mesh to write: obj, ply, off, stl or glb"},
+      {"height", &job.measures.height, of_height, "from floor to crown [m]"},
+      {"chest", &job.measures.chest, of_girth, "around the fullest of the chest, under the armpits [m]"},
+      {"waist", &job.measures.waist, of_girth, "around the narrowest [m]"},
+      {"hip", &job.measures.hip, of_girth, "around the fullest of the seat [m]"},
+  };
 }
 
 Json to_json(const BodyReport& r) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <filesystem>
+#include <vector>
 
 #include "geometry/figure/shape_body.h"
 #include "jobs/base/inputs.h"
@@ -24,6 +25,9 @@ struct BodyReport {
   /// Whether each girth and the height are within 5 mm of what was asked for, and nothing crosses anew.
   bool succeeds() const { return shape.farthest <= 0.005 && new_crossings <= 0; }
 };
+
+/// Its options (jobs/base/card.h).
+std::vector<CardRow> card(BodyJob& job);
 
 /// Shapes a body as geometry::shape_body() does, and writes it, whole or not at all. Throws
 /// physics::Cancelled, nothing written, if the listener cancels; std::invalid_argument for measurements out

@@ -9,6 +9,7 @@
 #include "io/mesh/ply_motion.h"
 #include "io/scene/relocated.h"
 #include "jobs/base/budget.h"
+#include "jobs/base/card.h"
 #include "jobs/base/measure_crossings.h"
 #include "jobs/base/output_checks.h"
 #include "jobs/base/read_inputs.h"
@@ -32,6 +33,7 @@ namespace furrow::jobs {
 namespace {
 
 void check_outputs(const KeepJob& job, const OpenScene& open, Listener& listener) {
+  check_card(job);
   if (job.whole && !job.help)
     throw std::invalid_argument("`whole` is help for what lies between the lines; leave out `no_help`");
   const io::Scene& scene = open.scene;

@@ -52,6 +52,9 @@ struct KeepJob {
   double budget = 300;  ///< processor time after which the last rest state is the end [s]; > 0
 };
 
+/// Its options (jobs/base/card.h).
+std::vector<CardRow> card(KeepJob& job);
+
 /// Gives a garment the rest state that keeps its drawn lines, tells of each whether it will hold
 /// (bridge/keeping/keep.h), and writes the mesh and the state that the settings' output names, each file
 /// whole or not at all; a mesh named "-" is in the report alone. A job that is cancelled on the way to its

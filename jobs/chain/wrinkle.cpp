@@ -12,6 +12,7 @@
 #include "io/scene/scene_file.h"
 #include "io/stroke/stroke_file.h"
 #include "jobs/base/budget.h"
+#include "jobs/base/card.h"
 #include "jobs/base/gate.h"
 #include "jobs/base/max_weights.h"
 #include "jobs/base/measure_crossings.h"
@@ -53,16 +54,12 @@ void check(const WrinkleJob& job, Listener& listener) {
   if (!inserted.empty()) check_output(inserted);
   const std::string smoothed = job.smoothed.string();
   if (!smoothed.empty()) check_output(smoothed);
-  if (job.settle && (job.keep || job.state))
+  if (job.settle && job.state)
+    throw std::invalid_argument("`settle`: the garment of a state is in motion; leave out one of the two");
+  check_card(job);
+  if (job.subdivide && !job.settle)
     throw std::invalid_argument(
-        job.keep ? "`settle` holds the drawn shape by itself, as `rest=keep` does; leave out "
-                   "one of them"
-                 : "`settle`: the garment of a state is in motion; leave out one of "
-                   "the two");
-  if (job.subdivide && (!job.settle || *job.subdivide < 0 || *job.subdivide > 4))
-    throw std::invalid_argument(
-        "`subdivide=" + std::to_string(*job.subdivide) +
-        "`: refines 0 to 4 times before lines are drawn that come to rest (`settle`)");
+        "`subdivide` goes with `settle`; `furrow subdivide` refines a garment by itself");
   if (!smoothed.empty() && !job.settle)
     throw std::invalid_argument("`smoothed` writes what is drawn before it comes to rest; add `settle`");
   if (!job.made_for.empty() && !job.settle)
@@ -341,6 +338,12 @@ WrinkleReport draw_and_settle(const WrinkleJob& job, Budget& budget) {
 }  // namespace
 
 WrinkleReport wrinkle(const WrinkleJob& job, Listener& listener) {
+  if (job.settle && job.keep) {  // what comes to rest is held anyway
+    WrinkleJob held = job;
+    held.keep.reset();
+    held.hold = true;
+    return wrinkle(held, listener);
+  }
   // What rests has a budget, and drawing is a part of that.
   Budget budget("wrinkle", job.settle ? job.budget : std::numeric_limits<double>::infinity(), listener);
   const physics::CancelScope cancelling([&budget] { return budget.cancelled(); });

@@ -34,8 +34,8 @@ struct WrinkleJob {
   std::optional<double> density;   ///< of the cloth [kg/m^2]; none: as the garment notes, else the default
   std::optional<int> max_weights;  ///< skin weights that each vertex keeps; none: as interpolated
   std::optional<SceneInput> keep;  ///< the drawn shape is made to bear its weight under these settings
-  /// What is drawn comes to rest as furrow drape lets it, on body or pins of these settings; not with keep or
-  /// a state.
+  /// What is drawn comes to rest as furrow drape lets it, on body or pins of these settings; not with
+  /// a state. With keep, too, it is held.
   std::optional<SceneInput> settle = {};
   /// With settle: lines are held as drawn, as far as cloth can (jobs/chain/hold_drawn.h); false: by the rest
   /// state of options.rest alone. Cloth that bends by cross springs has nothing to hold them by.
@@ -57,6 +57,11 @@ struct WrinkleJob {
   std::vector<std::string> more_outputs = {};  ///< files that the caller writes: none may replace another
   std::vector<std::string> more_inputs = {};   ///< files that the caller reads: none may be replaced
 };
+
+/// Its options, each bound to its field (jobs/base/card.h); and those of them that say how lines are drawn,
+/// which are noted in what is drawn.
+std::vector<CardRow> card(WrinkleJob& job);
+std::vector<CardRow> drawing_card(WrinkleJob& job);
 
 struct Draped;
 

@@ -12,6 +12,7 @@
 #include "io/base/field_words.h"
 #include "io/stroke/resolve_strokes.h"
 #include "io/stroke/stroke_file.h"
+#include "jobs/base/card.h"
 #include "jobs/base/output_checks.h"
 #include "jobs/base/read_inputs.h"
 #include "jobs/draw/quality_targets.h"
@@ -43,9 +44,7 @@ void check(const QualityJob& job) {
   if (job.strokes)
     if (const auto* path = std::get_if<fs::path>(&*job.strokes)) inputs.push_back(path->string());
   refuse_same(job.more_outputs, inputs);
-  if (job.width && !(*job.width > 0)) throw std::invalid_argument("`width` must be > 0 m");
-  if (job.max_distance && !(*job.max_distance > 0))
-    throw std::invalid_argument("`max_distance` must be > 0 m");
+  check_card(job);
 }
 
 /// The cloth before its folds, and what is known of its lines.
@@ -277,6 +276,21 @@ QualityReport quality(const QualityJob& job, Listener& listener) {
 
 bool QualityReport::met() const {
   return std::all_of(measures.begin(), measures.end(), [](const QualityMeasure& m) { return m.met(); });
+}
+
+std::vector<CardRow> card(QualityJob& job) {
+  return {
+      {"strokes", &job.strokes,
+       "lines of its folds: JSON, or the l elements of an OBJ file; none: those that the mesh, a wrinkled "
+       "PLY, was made with, or the lines that it carries"},
+      {"base", &job.base,
+       "the garment before its folds, from which heights count; none: the one that the mesh names, or where "
+       "its vertices lay"},
+      {"height", &job.height, "of strokes that name none [m]"},
+      {"width", &job.width, positive, "of strokes that name none [m]; none: as rule fold chooses it"},
+      {"max_distance", &job.max_distance, positive,
+       "of a stroke's point from the base [m]; none: as the lines were drawn with, or 0.05"},
+  };
 }
 
 }  // namespace furrow::jobs

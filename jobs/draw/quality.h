@@ -55,6 +55,9 @@ struct QualityReport {
   bool met() const;
 };
 
+/// Its options (jobs/base/card.h).
+std::vector<CardRow> card(QualityJob& job);
+
 /// Measures crest, sections and normals of the lines over the surface before them, and knobs, thin faces,
 /// hems and vertices of the whole mesh (geometry/quality/fold_quality.h), each beside its target. Throws
 /// physics::Cancelled if the listener cancels; std::invalid_argument for an output that would replace an

@@ -11,11 +11,11 @@
 #include "geometry/refine/surface_deviation.h"
 #include "geometry/stroke/project_onto_surface.h"
 #include "io/picture/baked_maps.h"
+#include "jobs/base/card.h"
 #include "jobs/base/output_checks.h"
 #include "jobs/base/read_inputs.h"
 #include "physics/base/cancel_scope.h"
 #include "physics/base/progress.h"
-#include "physics/base/require.h"
 
 namespace furrow::jobs {
 namespace {
@@ -28,8 +28,7 @@ constexpr double moved = 1e-4;  // from the low surface: such faces are reported
 void check(const BakeJob& job, Listener& listener) {
   const std::string applied = job.applied.string();
   if (!applied.empty() && !job.check) throw std::invalid_argument("`applied` goes with `check`");
-  if (job.check)
-    physics::require("bake", "check", *job.check, *job.check >= 0 && *job.check <= 6, "in [0, 6]");
+  check_card(job);
   if (job.prefix.empty()) {
     if (job.check)
       throw std::invalid_argument("bake: a check reads the maps that were written: name a prefix");
@@ -141,6 +140,19 @@ BakeReport bake(const BakeJob& job, Listener& listener) {
   report.cancelled = listener.cancelled();
   report.maps = std::move(*maps);
   return report;
+}
+
+std::vector<CardRow> card(BakeJob& job) {
+  return {
+      {"output", &job.prefix, "what the names of the files begin with"},
+      {"texels", &job.options.size, between(1, 8192), "width and height of the maps [texels]"},
+      {"padding", &job.options.padding, between(0, 1024),
+       "how far the charts go on beyond their borders [texels]"},
+      {"check", &job.check, between(0, 6),
+       "apply the written map to the low mesh cut so many times into four, and report the distances between "
+       "the result and the high mesh [m]"},
+      {"applied", &job.applied, "mesh to write the result of `check` to"},
+  };
 }
 
 Json to_json(const BakeReport& r) {

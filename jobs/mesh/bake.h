@@ -46,6 +46,9 @@ struct BakeReport {
   int size = 0;  ///< of the maps [texels]
 };
 
+/// Its options (jobs/base/card.h).
+std::vector<CardRow> card(BakeJob& job);
+
 /// Bakes the maps (geometry/refine/bake_maps.h) and writes PREFIX_normal.png, PREFIX_displacement.png and
 /// PREFIX_maps.json, each whole or not at all. Throws std::invalid_argument for outputs that would replace an
 /// input, geometry::ContentError for meshes without texture coordinates or half a diagonal apart.

@@ -7,6 +7,7 @@
 #include "geometry/figure/repair_body.h"
 #include "geometry/mesh/measures.h"
 #include "io/mesh/weld.h"
+#include "jobs/base/card.h"
 #include "jobs/base/gate.h"
 #include "jobs/base/output_checks.h"
 #include "jobs/base/read_inputs.h"
@@ -160,6 +161,18 @@ DoctorReport doctor(const DoctorJob& job, Listener& listener) {
   warn_of_lost_ties(report.mesh.mesh, job.output, listener);
   if (!job.output.empty() && job.output != "-") write_mesh(job.output, report.mesh, {report.frame, listener});
   return report;
+}
+
+std::vector<CardRow> card(DoctorJob& job) {
+  return {
+      {"body", &job.body, "body that the garment goes with: sizes, axes, which is which"},
+      {"body_unit", unit_choice(job.body_unit), "unit of the body's file, where it is not the garment's"},
+      {"as_body", &job.is_body, "examine the mesh as a body: closed, wound outwards"},
+      {"repair", &job.repair,
+       "join vertices at the same place, drop faces that are twice there, wind neighbours alike, part what "
+       "is not manifold, close holes (small ones of a garment, all of a body)"},
+      {"output", &job.output, "mended mesh to write: obj, ply, off, stl or glb"},
+  };
 }
 
 Json to_json(const DoctorReport& r) {

@@ -32,6 +32,9 @@ struct DoctorReport {
   bool well() const { return (repaired ? left : found).empty(); }
 };
 
+/// Its options (jobs/base/card.h).
+std::vector<CardRow> card(DoctorJob& job);
+
 /// Examines a mesh: what is wrong, where, and what mends it; the same checks come before every job. With
 /// `repair` the mesh is mended: vertices at exactly the same place are joined, faces that are there twice are
 /// dropped, neighbours wound alike, what is not manifold is parted, and holes are closed: small ones of a

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <filesystem>
+#include <vector>
 
 #include "geometry/fold/taubin_smooth.h"
-#include "jobs/base/inputs.h"
+#include "jobs/base/card.h"
 
 namespace furrow::jobs {
 
@@ -21,6 +22,12 @@ struct SmoothReport {
   int iterations = 0;
   Frame frame;  ///< of the file written
 };
+
+/// Their options, each bound to its field (jobs/base/card.h); the second: those of smoothing, for the jobs
+/// that smooth.
+std::vector<CardRow> card(SmoothJob& job);
+std::vector<CardRow> smoothing_card(geometry::TaubinOptions& options, Group group = {},
+                                    Audience audience = {});
 
 /// Smooths as geometry::taubin_smooth() does and writes the mesh, whole or not at all. Throws
 /// physics::Cancelled, nothing written, if the listener cancels; std::invalid_argument for an option,

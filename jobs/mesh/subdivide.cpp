@@ -12,7 +12,9 @@
 #include "geometry/stroke/placed_stroke.h"
 #include "io/stroke/resolve_strokes.h"
 #include "io/stroke/stroke_file.h"
+#include "jobs/base/card.h"
 #include "jobs/base/gate.h"
+#include "jobs/base/max_weights.h"
 #include "jobs/base/output_checks.h"
 #include "jobs/base/read_inputs.h"
 #include "jobs/base/seam_ties.h"
@@ -93,6 +95,7 @@ void refine(const SubdivideJob& job, SubdivideReport& result, SeamTies& ties, co
 
 SubdivideReport subdivide(const SubdivideJob& job, Listener& listener) {
   const physics::CancelScope cancelling([&listener] { return listener.cancelled(); });
+  check_card(job);
   const std::string output = job.output.string();
   if (!output.empty()) check_output(output);
   const auto* strokes = std::get_if<std::filesystem::path>(&job.strokes);
@@ -113,6 +116,33 @@ SubdivideReport subdivide(const SubdivideJob& job, Listener& listener) {
   warn_of_lost_ties(report.mesh.mesh, job.output, listener);
   if (!output.empty() && output != "-") write_mesh(job.output, report.mesh, context);
   return report;
+}
+
+std::vector<CardRow> card(SubdivideJob& job) {
+  const auto steps = [&job](Refinement refinement) {
+    return Whole{[&job, refinement](int n) {
+      job.steps = n;
+      job.refinement = refinement;
+    }};
+  };
+  return {
+      {"output", &job.output, "mesh to write: obj, ply, off, stl or glb"},
+      {"strokes", &job.strokes, "insert lines: JSON, or the l elements of an OBJ file"},
+      {"all", Flag{[&job](bool is_on) {
+         if (is_on) job.refinement = Refinement::everywhere;
+       }},
+       "insert a vertex in every face and flip every edge"},
+      {"subdivide", steps(Refinement::loop), between(0, 6), "so many steps of Loop subdivision"},
+      {"sqrt3", steps(Refinement::sqrt3), between(0, 6), "steps of sqrt(3) subdivision"},
+      {"linear", steps(Refinement::linear), between(0, 6),
+       "steps of cutting every triangle into four; the surface stays"},
+      max_weights_row(job.max_weights),
+      {"rule",
+       choice(job.options.rule,
+              {{"safe", geometry::InsertionRule::safe}, {"paper", geometry::InsertionRule::paper}}),
+       "of `strokes` and `all`"},
+      {"max_distance", &job.options.max_distance, positive, "how far a stroke may lie from the surface [m]"},
+  };
 }
 
 Json to_json(const SubdivideReport& r) {

@@ -42,6 +42,9 @@ struct SubdivideReport {
   Frame frame;                                         ///< of the file written
 };
 
+/// Its options (jobs/base/card.h).
+std::vector<CardRow> card(SubdivideJob& job);
+
 /// Refines the mesh and writes it, whole or not at all. Throws physics::Cancelled, nothing written, if the
 /// listener cancels; std::invalid_argument for an option and for an output that would replace the strokes,
 /// geometry::ContentError for files that cannot be used.

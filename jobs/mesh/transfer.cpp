@@ -10,6 +10,7 @@
 #include "io/base/own_mark.h"
 #include "io/mesh/material_libraries.h"
 #include "io/mesh/rewrite_obj_vertices.h"
+#include "jobs/base/card.h"
 #include "jobs/base/gate.h"
 #include "jobs/base/measure_crossings.h"
 #include "jobs/base/output_checks.h"
@@ -90,6 +91,7 @@ void write(const TransferJob& job, const TransferReport& report, const Context& 
 
 TransferReport transfer(const TransferJob& job, Listener& listener) {
   const physics::CancelScope cancelling([&listener] { return listener.cancelled(); });
+  check_card(job);
   if (!job.output.empty()) check_output(job.output.string());
   check_replaced({job.output.string()}, names_of_inputs(job), listener);
   TransferReport report;
@@ -114,6 +116,18 @@ TransferReport transfer(const TransferJob& job, Listener& listener) {
   report.obj_text = text_as_read(job, report.result, report.frame);
   write(job, report, context);
   return report;
+}
+
+std::vector<CardRow> card(TransferJob& job) {
+  return {
+      {"output", &job.output, "mesh to write: obj, ply, off, stl or glb"},
+      {"rest_shape", &job.rest,
+       "the wrinkled mesh's vertices before lines and motion, if it does not know them, as PLY does"},
+      {"body", &job.body,
+       "body that it is worn on, in the same frame: where it comes through the mesh is reported"},
+      {"max_distance", &job.options.max_distance, positive,
+       "how far an original vertex may lie from the wrinkled mesh's rest surface [m]"},
+  };
 }
 
 Json to_json(const TransferReport& r) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "geometry/refine/transfer_shape.h"
 #include "jobs/base/ends.h"
@@ -28,6 +29,9 @@ struct TransferReport {
   std::optional<std::string> obj_text;  ///< from OBJ to OBJ: the file's text with other positions
   Frame frame;                          ///< of the file written
 };
+
+/// Its options (jobs/base/card.h).
+std::vector<CardRow> card(TransferJob& job);
 
 /// Moves the original's vertices as geometry::transfer_shape() does and writes it, whole or not at all. From
 /// OBJ to OBJ all but the coordinates is copied as it stands. Throws physics::Cancelled, nothing written, if

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "jobs/base/card.h"
 #include "jobs/base/output_checks.h"
 #include "jobs/base/read_inputs.h"
 #include "jobs/cloth/fabric_file.h"
@@ -55,6 +56,7 @@ OpenScene open_scene(const ChartJob& job) {
 }  // namespace
 
 ChartReport chart(const ChartJob& job, Listener& listener) {
+  check_card(job);
   check(job.options);
   check_outputs(job, listener);
   const OpenScene open = open_scene(job);
@@ -68,6 +70,18 @@ ChartReport chart(const ChartJob& job, Listener& listener) {
   if (!job.picture.empty() && std::isfinite(j.reference_error))
     draw_chart(job.picture.string(), j, file + ", first " + Json(j.seconds).dump() + " s");
   return report;
+}
+
+std::vector<CardRow> card(ChartJob& job) {
+  return {
+      {"output", &job.picture, "picture to draw: svg or png, by gnuplot; its numbers as .csv beside it"},
+      {"csv", &job.csv, "file for the chart's numbers"},
+      {"accuracy", Share{[&job](double share) { job.options.tolerance = share; }},
+       "error that is accepted, as a share of the garment's diagonal (default 1%)"},
+      {"budget", &job.options.budget, positive,
+       "predicted seconds of one thread for all runs [s]; where the scene takes more, its beginning is "
+       "judged"},
+  };
 }
 
 Json to_json(const ChartReport& report) {

@@ -110,6 +110,9 @@ struct ChartReport {
   bool scene_dt = false;  ///< the scene names a step
 };
 
+/// Its options (jobs/base/card.h).
+std::vector<CardRow> card(ChartJob& job);
+
 /// Judges a scene (jobs/move/judge.h) and writes numbers and picture, each whole or not at all. A listener
 /// that cancels breaks the judgement off: what was done is in the report. Throws as judge(), and as
 /// jobs::simulate() does.

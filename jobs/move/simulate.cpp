@@ -12,6 +12,7 @@
 #include "io/mesh/mesh_file.h"
 #include "io/mesh/ply_motion.h"
 #include "io/scene/relocated.h"
+#include "jobs/base/card.h"
 #include "jobs/base/gate.h"
 #include "jobs/base/measure_crossings.h"
 #include "jobs/base/read_inputs.h"
@@ -462,6 +463,7 @@ SimulateJob resume_from(const std::filesystem::path& path) {
 }
 
 SimulateReport simulate(const SimulateJob& job, Listener& listener) {
+  check_card(job);
   const physics::CancelScope cancelling([&listener] { return listener.cancelled(); });
   OpenScene scene = open_scene(job, listener);
   const Context context{scene.frame, listener, &job.scene.memory};
@@ -518,6 +520,23 @@ std::optional<io::SavedState> run_until_drawn(const OpenScene& scene, const Cont
       throw std::runtime_error("the simulation diverged at " + std::to_string(stretch.report.time) +
                                " s, before its last lines; `furrow simulate` tells more");
   }
+}
+
+std::vector<CardRow> card(SimulateJob& job) {
+  using enum Group;
+  using enum Audience;
+  return {
+      {"state", motion, everyone, &job.state_path, "a saved state to go on from; then without a garment"},
+      {"accuracy", motion, everyone, Share{[&job](double share) { job.tolerance = share; }},
+       "error of the result that is accepted, as a share of the garment's diagonal, 1%: integrator and step "
+       "are chosen for it"},
+      {"budget", motion, few, &job.budget, positive,
+       "predicted seconds of one thread that choosing for `accuracy=1%` may take [s]"},
+      {"outputs_below", motion, few, &job.outputs_below,
+       "folder that the outputs named by a scene file must lie in (default: the scene's own folder)"},
+      {"times", motion, few, &job.times,
+       "report what processor time went to: assembly, factorisation, solve, elements, contact, output"},
+  };
 }
 
 }  // namespace furrow::jobs

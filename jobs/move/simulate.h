@@ -116,6 +116,9 @@ struct SimulateJob {
   Hand hand = {};  ///< that may pull at the cloth; empty: there is none
 };
 
+/// Its options (jobs/base/card.h).
+std::vector<CardRow> card(SimulateJob& job);
+
 /// The job that goes on from a state's file, under the settings that it holds. Throws as io::read_state().
 SimulateJob resume_from(const std::filesystem::path& state);
 

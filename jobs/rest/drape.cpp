@@ -7,6 +7,7 @@
 #include "io/scene/garment_list.h"
 #include "io/scene/settings_schema.h"
 #include "jobs/base/budget.h"
+#include "jobs/base/card.h"
 #include "jobs/base/output_checks.h"
 #include "jobs/base/read_inputs.h"
 #include "jobs/cloth/fabric_file.h"
@@ -16,7 +17,6 @@
 #include "jobs/rest/drape_remarks.h"
 #include "jobs/rest/made_for.h"
 #include "physics/base/cancel_scope.h"
-#include "physics/base/require.h"
 
 namespace furrow::jobs {
 namespace {
@@ -110,18 +110,11 @@ void check(const DrapeJob& job, const GarmentScenes& all, const io::Scene& scene
   check_scene(scene);
   const DrapeSettings& s = job.settings;
   check_made_for(s.made_for, scene);
-  using physics::require;
-  require("drape", "penetration", s.penetration, s.penetration >= 0, ">= 0");
-  require("drape", "band_stiffness", s.band_stiffness, s.band_stiffness >= 0, ">= 0");
-  require("drape", "subdivide", scene.subdivide, scene.subdivide >= 0 && scene.subdivide <= 6, "in [0, 6]");
-  if (s.iterations) require("drape", "iterations", *s.iterations, *s.iterations >= 0, ">= 0");
-  if (s.thickness) require("drape", "thickness", *s.thickness, *s.thickness > 0, "> 0");
-  if (s.contact_depth) require("drape", "contact_depth", *s.contact_depth, *s.contact_depth > 0, "> 0");
+  check_card(job);
   if (scene.starts > 1 && !s.animation.empty())
     throw std::invalid_argument("`animation` shows one way to rest; leave it out, or `starts`");
   if (job.fabrics.size() > 1 && (!job.output.empty() || !s.animation.empty()))
     throw std::invalid_argument("`fabrics` writes a picture only; drape each by itself for its mesh");
-  if (!(s.residual > 0)) throw std::invalid_argument("`residual` takes a number > 0");
   if (s.plain && s.contact_depth)
     throw std::invalid_argument(
         "`contact_depth`: `plain` moves cloth out to the gap at once; leave out one of them");

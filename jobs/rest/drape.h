@@ -71,6 +71,9 @@ struct DrapeJob {
   double budget = 60;  ///< processor time after which the best state so far is the end [s]; > 0
 };
 
+/// Its options (jobs/base/card.h).
+std::vector<CardRow> card(DrapeJob& job);
+
 /// A number of a garment at rest, by the name that it has in reports; SI units.
 struct RestNumber {
   std::string name;

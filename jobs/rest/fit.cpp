@@ -8,6 +8,7 @@
 #include "geometry/mesh/edge_metric.h"
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/property_names.h"
+#include "jobs/base/card.h"
 #include "jobs/base/gate.h"
 #include "jobs/base/measure_crossings.h"
 #include "jobs/base/output_checks.h"
@@ -18,6 +19,15 @@
 
 namespace furrow::jobs {
 namespace {
+
+NamedNumbers section_list(bridge::SectionHeights& heights) {
+  return {"section", "height", "write a section and its height [m]: `section=chest=1.25`",
+          [&heights](const std::string& name, double height) {
+            if (name != "chest" && name != "waist" && name != "hip")
+              throw std::invalid_argument("'" + name + "' is none of chest, waist and hip");
+            (name == "chest" ? heights.chest : name == "waist" ? heights.waist : heights.hip) = height;
+          }};
+}
 
 void check(const FitJob& job, Listener& listener) {
   if (job.worn.empty()) throw std::invalid_argument("fit: there is no garment");
@@ -30,8 +40,7 @@ void check(const FitJob& job, Listener& listener) {
   if (job.rest && job.worn.size() > 1) throw std::invalid_argument("`rest_shape` is that of one garment");
   if (job.body_unit && !is_unit(*job.body_unit))
     throw std::invalid_argument("`body_unit`: '" + *job.body_unit + "' is not m, cm, mm or inch");
-  if (job.range && !(*job.range > 0 && std::isfinite(*job.range)))
-    throw std::invalid_argument("`range` takes a number > 0, not " + Json(*job.range).dump());
+  check_card(job);
   if (!output.empty()) check_output(output);
   std::vector<std::string> outputs{output}, inputs = job.more_inputs;
   outputs.insert(outputs.end(), job.more_outputs.begin(), job.more_outputs.end());
@@ -193,6 +202,31 @@ Json to_json(const bridge::FitReport& r, const bridge::FitOptions& o) {
   json["loose_over"] = o.loose_distance;
   json["zones_left_out"] = r.left_out;
   return json;
+}
+
+std::vector<CardRow> card(FitJob& job) {
+  bridge::FitOptions& o = job.options;
+  return {
+      {"body", &job.bodies,
+       "the body that wears it, as it stands there; of several garments one, or one for each, in their "
+       "order"},
+      {"body_unit", unit_choice(job.body_unit), "unit of the bodies' files, where it is not the garments'"},
+      {"rest_shape", &job.rest,
+       "the garment as it was made, with the same vertices, where the worn one has no rest lengths"},
+      {"output", &job.output,
+       "mesh to write with colours; PLY keeps the columns fit_distance [m] and strain [-], too"},
+      {"colour", choice(job.colour, {{"strain", FitColour::strain}, {"distance", FitColour::distance}}),
+       "of the cloth; default strain, where it is known"},
+      {"range", &job.range, positive,
+       "where the colours end: strain [-] or distance [m]; default 2 x `tight`, 1.2 x `loose`"},
+      {"tight", &o.tight_strain, positive, "cloth strained more is tight [-]"},
+      {"loose", &o.loose_distance, positive, "cloth farther from the body is loose [m]"},
+      {"contact", &job.contact, not_negative,
+       "cloth nearer lies on the body [m]; default 1.2 times the gap that the garment kept, or would keep"},
+      {"smallest_zone", &o.smallest_zone, not_negative, "zones with less area are left out [m^2]"},
+      {"section", section_list(o.sections),
+       "heights of sections in place of what is found on the body [m]: chest=1.25; chest, waist or hip"},
+  };
 }
 
 Json to_json(const FitJobReport& report) {

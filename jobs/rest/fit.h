@@ -45,6 +45,9 @@ struct FitJobReport {
   Frame frame;  ///< of the file written
 };
 
+/// Its options (jobs/base/card.h).
+std::vector<CardRow> card(FitJob& job);
+
 /// Measures strain, distance and ease (bridge/draping/fit_report.h) and colours the garments. Throws
 /// physics::Cancelled, nothing written, if the listener cancels; std::invalid_argument for a job that cannot
 /// be, geometry::ContentError for files that cannot be used. Cost: two closest points for each vertex.

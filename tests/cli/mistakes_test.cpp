@@ -162,7 +162,8 @@ const Mistake mistakes[] = {
     {"garments to compare without saying so", "fit {d}/sheet.obj {m}/skirt.obj --body {m}/mannequin.obj", 2,
      "error: 2 garments: say --compare to lay them side by side"},
     {"a section that there is not", "fit {m}/skirt.obj --body {m}/mannequin.obj --section knee=0.5", 2,
-     "error: --section takes chest=, waist= or hip= and a height [m], not 'knee=0.5'"},
+     "error: --section knee=0.5: 'knee' is none of chest, waist and hip; write a section and its height [m]: "
+     "--section chest=1.25"},
     {"a texture on a mesh without coordinates", "render {m}/sheet.obj --texture checker -o {d}/p.png", 3,
      "error: {m}/sheet.obj: has no texture coordinates to lay --texture on with"},
     {"the target forgotten", "render {m}/sheet.obj --eye 0,0,3 -o {d}/p.png", 2,

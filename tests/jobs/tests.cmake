@@ -5,6 +5,7 @@ furrow_add_tests(jobs jobs LIBRARIES furrow::jobs cases SOURCES
   mesh/bake_test.cpp
   body/body_cache_test.cpp
   base/budget_test.cpp
+  base/card_test.cpp
   cloth/chain_test.cpp
   move/chart_test.cpp
   cloth/choose_steps_test.cpp

@@ -21,7 +21,9 @@ RIDGE = [{"name": "ridge", "height": 0.02, "points": [[-0.3, 0, 0], [0.3, 0, 0]]
 OF_PROGRAM = {"help", "help_all",
               "json", "verbose", "quiet", "set", "picture", "no_legend", "compare", "captions", "view", "eye",
               "target", "camera", "camera_up", "size", "quality", "save_camera", "fov", "wire", "thickness",
-              "orthographic", "oversample"}
+              "orthographic", "oversample", "progress"}
+# What Python has for callables and dicts.
+OF_PYTHON = {"settings", "progress", "cancel", "watch"}
 
 
 def strip(rows=12, columns=12):
@@ -199,6 +201,9 @@ class Errors(unittest.TestCase):
                              "frictoin"),
                             (lambda: furrow.drape(strip(), pin_vertices=0, residual=0), "residual"),
                             (lambda: furrow.drape(strip()), "pin_loop"),
+                            (lambda: furrow.drape(strip(), pin_vertices=0, cloth_thickness=0.1),
+                             r"cloth_thickness takes a number in \[1e-05, 0.05\], not 0.1"),
+                            (lambda: furrow.drape(strip(), pin_vertices=0, band={"top": 3}), "band: the length"),
                             (lambda: furrow.drape(strip(), pin_vertices=0, self_contact="maybe"), "self_contact"),
                             (lambda: furrow.smooth(strip(), iterations=-1), "iterations"),
                             (lambda: furrow.bake(strip(), strip()), "output"),
@@ -316,7 +321,7 @@ class Keywords(unittest.TestCase):
     JOBS = ("wrinkle", "simulate", "drape", "keep", "chart", "fit", "transfer", "bake", "subdivide", "smooth", "body",
             "doctor", "quality")
 
-    def test_every_flag_of_the_command_line_is_a_keyword(self):
+    def test_flags_of_the_command_line_and_keywords_are_the_same(self):
         if not PROGRAM:
             self.skipTest("the command line is not built")
         for job in self.JOBS:
@@ -326,6 +331,9 @@ class Keywords(unittest.TestCase):
             known = {name.rstrip("_") for name in inspect.signature(getattr(furrow, job)).parameters}
             picture = {"drape": {"colour"}, "quality": {"check"}}.get(job, set())
             self.assertEqual(flags - OF_PROGRAM - picture - known, set(), job)
+            keywords = {name.rstrip("_") for name, p in inspect.signature(getattr(furrow, job)).parameters.items()
+                        if p.kind is p.KEYWORD_ONLY}
+            self.assertEqual(keywords - OF_PYTHON - flags, set(), job)
 
     def test_signatures_and_docstrings_tell_them(self):
         for job in self.JOBS:
