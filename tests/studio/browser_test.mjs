@@ -277,8 +277,8 @@ async function sheet() {
   await tab.close();
 }
 
-/** A ridge across all of a hanging sheet is draped flat, which is said; a button goes back and keeps it in place of that. */
-async function drapedFlat() {
+/** A ridge across all of a hanging sheet lasts at rest: nothing is lost, and no way back is offered. */
+async function drapedAsDrawn() {
   writeFileSync(join(scratch, "hung.obj"), sheetText(14, 0.03));
   const seen = await open((await studio("hung.obj", "--project", "hung", "--pin-box=-1,0.41,-1,1,1,1")).url, 1);
   const { tab } = seen;
@@ -288,13 +288,34 @@ async function drapedFlat() {
   await tab.keyboard.press("Escape");
   await tab.keyboard.press("d");
   await seen.at(2);
+  assert.doesNotMatch(await seen.words(), /lost/);
+  assert.equal(await tab.getByRole("button", { name: "Undo and keep its lines" }).count(), 0);
+  await seen.shot("17-draped-as-drawn");
+  replay("hung");
+  assert.deepEqual(seen.faults, []);
+  await tab.close();
+}
+
+/** Where its scene says that the line learns nothing, it is draped flat, which is said; a button goes back and keeps it. */
+async function drapedFlat() {
+  writeFileSync(join(scratch, "ridge.json"),
+    '{"strokes": [{"name": "ridge", "height": 0.01, "points": [[-0.15, 0.2, 0], [0.15, 0.2, 0]]}]}');
+  writeFileSync(join(scratch, "flat.toml"),
+    'garment.mesh = "hung.obj"\n[[lines]]\nstrokes = "ridge.json"\nrest = "flat"\n' +
+    '[[pins]]\nbox = [-1, 0.41, -1, 1, 1, 1]\n');
+  const seen = await open((await studio("flat.toml", "--project", "flat")).url, 1);
+  const { tab } = seen;
+  assert.equal(await seen.lines(), 1);
+  const before = await seen.step();
+  await tab.keyboard.press("d");
+  await seen.at(before + 1);
   const instead = tab.getByRole("button", { name: "Undo and keep its lines" });
   await until("it offers to keep the line", async () => (await instead.count()) === 1);
   assert.match(await seen.words(), /lost/);
   await seen.shot("18-draped-flat");
   await instead.click();
   await until("the verdict in place of the drape", async () => (await tab.locator(".verdicts li").count()) === 1);
-  assert.equal(await seen.step(), 2);
+  assert.equal(await seen.step(), before + 1);
   assert.equal(await instead.count(), 0);
   assert.deepEqual(seen.faults, []);
   await tab.close();
@@ -349,6 +370,7 @@ await run(async () => {
   assert.deepEqual(seen.faults, []);
   await end(first.program);
   await sheet();
+  await drapedAsDrawn();
   await drapedFlat();
   await broughtToAnother();
 });
