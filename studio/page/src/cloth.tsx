@@ -234,8 +234,8 @@ export function Cloth({ status, busy, mayDraw, map, moving, speed, kept, actions
           ? "It lies about the body that it was made for. Drape brings it to yours, in its own size, and lets it come " +
             "to rest there."
           : held
-            ? "Keep makes its lines last: in a minute or two it tries what each needs. Drape lets the cloth come to rest " +
-              "under its weight, Play lets it move."
+            ? "Drape lets the cloth come to rest with lines that last. Keep tries each in gusts, too, for a minute or two. " +
+              "Play lets it move."
             : "To let it move, hold a border, pin it (P), or open it with a body (O)."}
       </p>
     </section>
