@@ -33,14 +33,11 @@ std::optional<double> next_press(double press, const KeepOptions& o) {
   return next == o.presses.end() ? std::nullopt : std::optional(*next);
 }
 
-HeldLines hold_lines(const geometry::Mesh& mesh, const PressedCloth& make, const physics::World& world,
-                     const KeepOptions& options) {
+HeldLines hold_lines(const geometry::Mesh& mesh, const PressedCloth& make, const KeepOptions& options) {
   KeepOptions o = options;
   require_legal(o);
   physics::StiffnessWork work;
   o.bounds.gravity = o.run.gravity;
-  o.bounds.friction = o.run.friction;
-  o.bounds.gap = o.run.contact_gap;
   o.bounds.work = &work;
   HeldLines held{make(o.line_presses), {}, o.line_presses};
   LineMeter meter(mesh, {}, o.line_widths);
@@ -50,7 +47,7 @@ HeldLines hold_lines(const geometry::Mesh& mesh, const PressedCloth& make, const
   for (bool first = true;; first = false) {
     TriedPlan tried{
         plan, {.cloth = std::move(held.cloth), .shape = {}, .rest_press = 1, .kept = {}, .kept_gust = {}}};
-    tried.outcome.shape = keep_shape(tried.outcome.cloth, world, o.bounds, o.largest_turn, false);
+    tried.outcome.shape = keep_shape(tried.outcome.cloth, {}, o.bounds, o.largest_turn, false);
     const bool again = press_loose(tried, first, o, held.presses);
     held.cloth = again ? make(held.presses) : std::move(tried.outcome.cloth);
     held.shape = std::move(tried.outcome.shape);

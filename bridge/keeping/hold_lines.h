@@ -23,12 +23,11 @@ std::optional<double> next_press(double press, const KeepOptions& options);
 
 /// Finds the rest state with which a garment is in equilibrium as drawn (keep_shape()), and the least press
 /// of its lines with which none of them takes part in a motion that nothing holds back. A line begins with
-/// its options.line_presses, and goes on to the next of options.presses. Where neither the body nor pins
-/// carry the garment as it lies, nothing can be said before it rests: its lines get the first press at least.
+/// its options.line_presses, and goes on to the next of options.presses. Where no pins carry the garment,
+/// nothing can be said before it rests: its lines get the first press at least. No body is a load.
 /// Nothing runs, and no struts are added: whether the lines stand is for a search for rest to say
 /// (bridge/draping/drape.h). mesh: as for keep_lines(). Without lines it is keep_shape(). Cost: a
 /// factorisation or two for each press that is tried. Throws as keep_shape() and require_legal() do.
-HeldLines hold_lines(const geometry::Mesh& mesh, const PressedCloth& make, const physics::World& world,
-                     const KeepOptions& options);
+HeldLines hold_lines(const geometry::Mesh& mesh, const PressedCloth& make, const KeepOptions& options);
 
 }  // namespace furrow::bridge

@@ -31,7 +31,8 @@ bool Budget::cancelled() {
   const auto now = std::chrono::steady_clock::now();
   if (!spent_ && now >= next_look_) {
     next_look_ = now + std::chrono::milliseconds(5);
-    spent_ = used() >= seconds_;
+    looked_ = used();
+    spent_ = looked_ >= seconds_;
   }
   return spent_;
 }

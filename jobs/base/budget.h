@@ -29,7 +29,8 @@ class Budget : public Listener {
 
   bool is_spent() const { return spent_; }
   double seconds() const { return seconds_; }
-  double used() const;  ///< processor time since it began [s]
+  double used() const;                             ///< processor time since it began [s]
+  double used_at_look() const { return looked_; }  ///< the same when cancelled() looked last, which is cheap
 
   /// work(), where Cancelled becomes BudgetSpent if it was the budget that cancelled.
   template <class Work>
@@ -49,6 +50,7 @@ class Budget : public Listener {
   double seconds_, start_;
   Listener& other_;
   std::chrono::steady_clock::time_point next_look_ = {};
+  double looked_ = 0;
   bool spent_ = false;
 };
 

@@ -8,6 +8,7 @@
 #include "bridge/arrays/gather.h"
 #include "bridge/arrays/store_rest_state.h"
 #include "bridge/keeping/hold_lines.h"
+#include "jobs/cloth/lost_lines.h"
 #include "jobs/cloth/pins.h"
 #include "jobs/cloth/prepare_garment.h"
 #include "jobs/cloth/scene_cloth.h"
@@ -19,7 +20,6 @@ namespace furrow::jobs {
 namespace {
 
 constexpr double least_kept = 0.8, most_kept = 1.25;  // shares of its height at which a line stands as drawn
-constexpr double half = 0.5;                          // below that a line is lost
 
 bool stands(const LineReport& line) {
   return !line.kept || (*line.kept >= least_kept && *line.kept <= most_kept);
@@ -79,7 +79,8 @@ class Holder {
   std::optional<io::MeshFile> balanced(const Budget& budget, double until, const Context& context) {
     const ProgressScope progress(context.listener, "balancing what is drawn");
     progress(0);
-    const physics::CancelScope in_time([&] { return budget.used() > until || context.listener.cancelled(); });
+    const physics::CancelScope in_time(
+        [&] { return context.listener.cancelled() || budget.used_at_look() > until; });
     try {
       return held(context);
     } catch (const physics::Cancelled&) {
@@ -103,7 +104,7 @@ class Holder {
       note_presses(presses, file);
       return cloth_of(file, scene_, pins, nullptr, 0, {context.frame, silent});
     };
-    bridge::HeldLines held = bridge::hold_lines(file.mesh, pressed, {}, options_);
+    bridge::HeldLines held = bridge::hold_lines(file.mesh, pressed, options_);
     options_.line_presses = held.presses;
     bridge::scatter(held.cloth.particles, file.mesh);
     physics::soften_clamps(held.cloth);
@@ -157,14 +158,14 @@ std::optional<Warning> low_lines(const std::vector<LineReport>& lines) {
   std::string told, first;
   std::size_t low = 0;
   for (const LineReport& line : lines) {
-    if (!line.kept || *line.kept >= least_kept || *line.kept < half) continue;
+    if (!line.kept || *line.kept >= least_kept || *line.kept < lost_below) continue;
     const std::string name = line.name.value_or(std::to_string(line.id));
     if (++low == 1) first = name;
     told += fmt::format("{}'{}' {:.0f} %", told.empty() ? "" : ", ", name, 100 * *line.kept);
   }
   if (low == 0) return std::nullopt;
   return Warning{"lines_low",
-                 fmt::format("{} of {} lines stand lower than they were drawn, with all press: {}; a stiffer "
+                 fmt::format("{} of {} lines stand lower than they were drawn: {}; a stiffer "
                              "`fabric`, a lower or shorter line, or a pin at its end holds it",
                              low, lines.size(), told),
                  first, "`fabric`"};

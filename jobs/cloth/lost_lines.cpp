@@ -10,7 +10,6 @@
 namespace furrow::jobs {
 namespace {
 
-constexpr double least_kept = 0.5;    // share of a line's height
 constexpr std::size_t most_told = 5;  // lines in one warning
 
 /// "keeps 18 % (1.8 of 10.0 mm)"
@@ -30,7 +29,7 @@ std::vector<Warning> lost_lines(const io::Scene& scene, const std::vector<LineRe
   std::string told, first;
   std::size_t lost = 0;
   for (const LineReport& line : lines) {
-    if (!line.kept || *line.kept >= least_kept) continue;
+    if (!line.kept || *line.kept >= lost_below) continue;
     const std::string name = "'" + line.name.value_or(std::to_string(line.id)) + "'";
     if (++lost == 1) first = line.name.value_or(std::to_string(line.id));
     if (lost <= most_told) told += (told.empty() ? "" : ", ") + name + " " + words_of_loss(line);

@@ -7,6 +7,9 @@
 
 namespace furrow::jobs {
 
+/// A line that keeps less of its height is lost [-].
+inline constexpr double lost_below = 0.5;
+
 /// Lines that lost more than half of their height, or turned over to the other side, with figures and what
 /// helps.
 std::vector<Warning> lost_lines(const io::Scene& scene, const std::vector<LineReport>& lines);

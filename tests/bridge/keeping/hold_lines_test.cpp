@@ -45,7 +45,7 @@ struct Ridge {
       physics::pin(cloth.particles, top);
       return cloth;
     };
-    return bridge::hold_lines(mesh, make, {}, options);
+    return bridge::hold_lines(mesh, make, options);
   }
 };
 

@@ -43,7 +43,7 @@ std::string refusal(const Job& job) {
 template <class Job>
 void check_rows() {
   Job job;
-  CHECK(refusal(job) == "");  // what nobody set is within its range
+  CHECK(refusal(job) == "");  // a default is within its range
   std::set<std::string> names;
   for (const CardRow& row : card(job)) {
     INFO(row.name);

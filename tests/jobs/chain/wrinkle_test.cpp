@@ -36,6 +36,15 @@ jobs::WrinkleJob ridged_sheet(double height = 0.01) {
   return job;
 }
 
+/// The same of silk, which comes to rest, hung by its upper edge.
+jobs::WrinkleJob hung_silk() {
+  jobs::WrinkleJob job = ridged_sheet();
+  job.settle.emplace();
+  io::set_value(job.settle->settings, "pins.0", io::Json{{"box", {-1, 0.399, -1, 1, 1, 1}}}, "test");
+  io::set_value(job.settle->settings, "material.preset", "silk", "test");
+  return job;
+}
+
 void write_strokes(const fs::path& path) {
   std::ofstream(path)
       << R"({"strokes": [{"name": "ridge", "height": 0.01, "points": [[-0.1, 0.2, 0], [0.1, 0.2, 0]]}]})";
@@ -196,10 +205,7 @@ TEST_CASE("wrinkle: two jobs at once in one process give the bits of single runs
 
 TEST_CASE("wrinkle: with settle a line lasts, pressed where silk gives way, and the file notes its press") {
   tests::Recorder recorder;
-  jobs::WrinkleJob job = ridged_sheet();
-  job.settle.emplace();
-  io::set_value(job.settle->settings, "pins.0", io::Json{{"box", {-1, 0.399, -1, 1, 1, 1}}}, "test");
-  io::set_value(job.settle->settings, "material.preset", "silk", "test");
+  jobs::WrinkleJob job = hung_silk();
   const jobs::WrinkleReport held = jobs::wrinkle(job, recorder);
   REQUIRE(held.rest);
   INFO(to_json(held)["at_rest"]["lines"].dump(1));
@@ -217,10 +223,7 @@ TEST_CASE("wrinkle: with settle a line lasts, pressed where silk gives way, and 
 
 TEST_CASE("wrinkle: a line with a press of its own is not pressed twice, and rests as one that got it") {
   tests::Recorder recorder;
-  jobs::WrinkleJob job = ridged_sheet();
-  job.settle.emplace();
-  io::set_value(job.settle->settings, "pins.0", io::Json{{"box", {-1, 0.399, -1, 1, 1, 1}}}, "test");
-  io::set_value(job.settle->settings, "material.preset", "silk", "test");
+  jobs::WrinkleJob job = hung_silk();
   const jobs::WrinkleReport once = jobs::wrinkle(job, recorder);
   std::get<std::vector<io::DrawnStroke>>(job.strokes)[0].stroke.press = 10;
   const jobs::WrinkleReport again = jobs::wrinkle(job, recorder);
