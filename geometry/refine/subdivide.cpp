@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// CGAL's steps end with the postcondition that no vertex is isolated. Ours may be: KeepIsolated below looks
-// after them, and the tests check the result. All other checks of CGAL stay on.
+// CGAL's step of sqrt(3) ends with the postcondition that no vertex is isolated. Ours may be: KeepIsolated
+// below looks after them, and the tests check the result. All other checks of CGAL stay on.
 #define CGAL_NO_POSTCONDITIONS
 #include "geometry/refine/subdivide.h"
 
@@ -130,14 +130,13 @@ std::vector<Point> masked_points(const Mesh& mesh, Mask mask) {
   return points;
 }
 
-/// Cuts each edge of the mesh in two, the half at its target being new.
+/// Cuts each edge of the mesh in two; the new half is the one at its target.
 void cut_edges(Mesh& mesh) {
-  const std::size_t edges = mesh.number_of_edges();
-  mesh.reserve(static_cast<Mesh::size_type>(mesh.number_of_vertices() + edges),
-               static_cast<Mesh::size_type>(4 * edges), static_cast<Mesh::size_type>(2 * edges));
-  for (std::size_t i = 0; i < edges; ++i) {
+  const Mesh::size_type edges = mesh.number_of_edges();
+  mesh.reserve(mesh.number_of_vertices() + edges, 4 * edges, 2 * edges);
+  for (Mesh::size_type i = 0; i < edges; ++i) {
     physics::throw_if_cancelled("subdivide");
-    const Halfedge h = mesh.halfedge(Edge(static_cast<Edge::size_type>(i))), back = mesh.opposite(h);
+    const Halfedge h = mesh.halfedge(Edge(i)), back = mesh.opposite(h);
     const Halfedge half = CGAL::Euler::split_vertex(mesh.prev(back), h, mesh);
     if (!mesh.is_border(h)) mesh.set_halfedge(mesh.face(h), half);
     if (!mesh.is_border(back)) mesh.set_halfedge(mesh.face(back), back);
@@ -145,20 +144,20 @@ void cut_edges(Mesh& mesh) {
 }
 
 /// Cuts each face, whose edges have been cut, into four.
-void cut_faces(Mesh& mesh, std::size_t faces) {
-  for (std::size_t i = 0; i < faces; ++i) {
+void cut_faces(Mesh& mesh) {
+  const Mesh::size_type faces = mesh.number_of_faces();
+  for (Mesh::size_type i = 0; i < faces; ++i) {
     physics::throw_if_cancelled("subdivide");
     const auto after = [&](Halfedge h) { return mesh.next(mesh.next(h)); };
-    const Halfedge first = mesh.next(mesh.halfedge(Face(static_cast<Face::size_type>(i))));
-    const Halfedge second = after(first), third = after(second);
-    const Halfedge corner = CGAL::Euler::split_face(first, second, mesh);
-    const Halfedge middle = CGAL::Euler::split_face(corner, third, mesh);
-    CGAL::Euler::split_face(middle, first, mesh);
+    const Halfedge first = mesh.next(mesh.halfedge(Face(i))), second = after(first), third = after(second);
+    const Halfedge to_second = CGAL::Euler::split_face(first, second, mesh);
+    const Halfedge to_third = CGAL::Euler::split_face(to_second, third, mesh);
+    CGAL::Euler::split_face(to_third, first, mesh);
   }
 }
 
-/// A step of a mask that keeps the topology of Loop's scheme, as CGAL numbers it. Our own, as CGAL's cannot
-/// be left early without a leak, and takes a second where a garment has 180,000 vertices.
+/// A step of a mask that keeps the topology of Loop's scheme. Its numbers are those of CGAL's step, which
+/// cannot be left early without a leak, and takes a second for 180,000 vertices.
 template <class Mask>
 void quadrisect(Mesh& mesh) {
   const SavedAttributes saved(mesh);
@@ -166,7 +165,7 @@ void quadrisect(Mesh& mesh) {
   const Mesh& before = saved.before();
   const std::vector<Point> points = masked_points(mesh, Mask(mesh));
   cut_edges(mesh);
-  cut_faces(mesh, old_faces);
+  cut_faces(mesh);
   for (Vertex v : mesh.vertices()) mesh.point(v) = points[v.idx()];
   const auto parent = [&](Face f) {
     physics::throw_if_cancelled("subdivide");
