@@ -10,7 +10,10 @@
 #include "bridge/arrays/place_noise.h"
 #include "bridge/draping/energy_parts.h"
 #include "bridge/draping/level_start.h"
+#include "geometry/mesh/mesh.h"
 #include "geometry/mesh/preconditions.h"
+#include "physics/base/cancel_scope.h"
+#include "physics/base/progress.h"
 #include "physics/base/require.h"
 #include "physics/rest/give_way.h"
 #include "physics/rest/settle.h"
@@ -104,58 +107,98 @@ bool falls_past(physics::Cloth& cloth, const physics::Collider* body, const Drap
   return falls;
 }
 
+/// One level of a drape.
+struct Level {
+  geometry::Mesh made;  ///< with the maps of make_cloth
+  physics::Cloth cloth;
+  std::vector<Vec3> places;  ///< of the garment, as it was made [m]
+  std::vector<Vec3> drawn;   ///< of the particles, as they were made [m]
+  DrapeLevel report;
+};
+
+/// The cloth of a level, unless interrupted.
+physics::Cloth make_on_way_up(const MakeCloth& make_cloth, geometry::Mesh& made, const DrapeOptions& o) {
+  const physics::CancelScope way_up(cancels_way_up(o));
+  return make_cloth(made);
+}
+
+/// The first level, or the one above that of the cloth. Throws Cancelled if interrupted; the cloth is
+/// unchanged.
+Level go_up(geometry::Mesh& garment, const physics::Cloth& below, double disturbance, const PlaceNoise& noise,
+            const physics::Collider* body, const DrapeOptions& o, const MakeCloth& make_cloth) {
+  Carried carried;
+  if (below.particles.size() > 0) carried = {below.particles.x, refine_level(below.particles.x, garment, o)};
+  Level level{garment, {}, positions_of(garment), {}, {}};
+  level.cloth = make_on_way_up(make_cloth, level.made, o);
+  if (!carried.coarse.empty()) carried.coarse = lay_on_coarse(carried.coarse, level.cloth);
+  level.drawn = level.cloth.particles.x;
+  level.report.vertices = level.cloth.particles.size();
+  DrapeOptions here = o;
+  here.settle.self.drawn = level.drawn;
+  begin_level(level.cloth, carried, {level.places, noise, disturbance}, body, here, level.report);
+  const physics::CancelScope way_up(cancels_way_up(o));
+  physics::throw_if_cancelled("drape");
+  return level;
+}
+
+/// Looks for rest on a level: the first one with softer cloth before, if asked, the last one to the end.
+/// Notes in the report whether it was stopped, or falls.
+void come_to_rest(Level& now, int number, const physics::Collider* body, const DrapeOptions& asked,
+                  const DrapeObserver& go_on, DrapeReport& report) {
+  DrapeOptions o = asked;
+  o.settle.self.drawn = now.drawn;
+  const bool last = number == o.refinements;
+  const auto observer = [&](const physics::SettleProgress& progress) {
+    return !go_on || report.stopped || go_on(number, progress, now.cloth);
+  };
+  if (number == 0 && o.soft_start > 1 && !o.plain && !now.cloth.membrane.empty()) {
+    now.report.soft = settle_softly(now.cloth, body, o, observer);
+    report.stopped = now.report.soft.stopped;
+  }
+  physics::SettleOptions settle = level_options(o, last, report.stopped);
+  settle.work = o.work ? &o.work->levels[std::size_t(number)] : nullptr;
+  if (last && o.bending_friction > 0 && !report.stopped) {
+    const physics::GivenWay rest =
+        physics::settle_giving_way(now.cloth, body, o.bending_friction, settle, observer);
+    now.report.settle = rest.settle;
+    report.friction_rounds = rest.rounds;
+    report.slip = rest.slip;
+  } else {
+    now.report.settle = find_rest(now.cloth, body, o.plain, settle, observer);
+  }
+  report.falls = !last && falls_past(now.cloth, body, o, observer, now.report.settle);
+  report.stopped = report.stopped || now.report.settle.stopped;
+}
+
 }  // namespace
 
 DrapeReport drape(geometry::Mesh& garment, physics::Cloth& cloth, const physics::Collider* body,
-                  const DrapeOptions& asked, const MakeCloth& make_cloth, const DrapeObserver& go_on) {
-  check(asked);
+                  const DrapeOptions& o, const MakeCloth& make_cloth, const DrapeObserver& go_on) {
+  check(o);
   geometry::check_mesh(garment, "drape");
-  DrapeOptions o = asked;
   DrapeReport report;
-  Carried carried;
   const PlaceNoise noise(positions_of(garment), o.seed);
-  DrapeWork* const work = o.work;
-  if (work) work->levels.resize(std::size_t(o.refinements) + 1);
+  if (o.work) o.work->levels.resize(std::size_t(o.refinements) + 1);
+  Level now;
   for (int level = 0; level <= o.refinements; ++level) {
-    if (level > 0) carried = {cloth.particles.x, refine_level(cloth.particles.x, garment)};
-    const bool last = level == o.refinements;
-    const std::vector<Vec3> places = positions_of(garment);
-    geometry::Mesh made = garment;
-    cloth = make_cloth(made);
-    if (!carried.coarse.empty()) carried.coarse = lay_on_coarse(carried.coarse, cloth);
-    const std::vector<Vec3> drawn = cloth.particles.x;
-    o.settle.self.drawn = drawn;
-    report.disturbance = std::ldexp(report.stopped ? 0 : o.disturbance * noise.diagonal(), -level);
-    DrapeLevel& now = report.levels.emplace_back();
-    now.vertices = cloth.particles.size();
-    begin_level(cloth, carried, {places, noise, report.disturbance}, body, o, now);
-    const auto observer = [&](const physics::SettleProgress& progress) {
-      return !go_on || report.stopped || go_on(level, progress, cloth);
-    };
-    if (level == 0 && o.soft_start > 1 && !o.plain && !cloth.membrane.empty()) {
-      now.soft = settle_softly(cloth, body, o, observer);
-      report.stopped = now.soft.stopped;
+    const double disturbance = std::ldexp(report.stopped ? 0 : o.disturbance * noise.diagonal(), -level);
+    try {
+      now = go_up(garment, now.cloth, disturbance, noise, body, o, make_cloth);
+    } catch (const physics::Cancelled&) {
+      if (level == 0) throw;
+      report.stopped = true;
+      break;
     }
-    physics::SettleOptions settle = level_options(o, last, report.stopped);
-    settle.work = work ? &work->levels[std::size_t(level)] : nullptr;
-    if (last && o.bending_friction > 0 && !report.stopped) {
-      const physics::GivenWay rest =
-          physics::settle_giving_way(cloth, body, o.bending_friction, settle, observer);
-      now.settle = rest.settle;
-      report.friction_rounds = rest.rounds;
-      report.slip = rest.slip;
-    } else {
-      now.settle = find_rest(cloth, body, o.plain, settle, observer);
-    }
-    report.falls = !last && falls_past(cloth, body, o, observer, now.settle);
-    report.stopped = report.stopped || now.settle.stopped;
-    if (!last && !report.falls) continue;
-    report.energy = energy_parts(cloth, o.settle.gravity, places);
-    report.energy.contact = now.settle.contact_energy;
-    garment = std::move(made);
-    scatter(cloth.particles, garment);
-    break;
+    come_to_rest(now, level, body, o, go_on, report);
+    report.disturbance = disturbance;
+    report.levels.push_back(now.report);
+    if (report.falls || (report.stopped && cancels_way_up(o)())) break;
   }
+  report.energy = energy_parts(now.cloth, o.settle.gravity, now.places);
+  report.energy.contact = now.report.settle.contact_energy;
+  garment = std::move(now.made);
+  cloth = std::move(now.cloth);
+  scatter(cloth.particles, garment);
   return report;
 }
 

@@ -44,6 +44,9 @@ struct DrapeOptions {
   /// Internal friction of bending on the last level, as a moment a metre of crease [N]; >= 0, 0: none. It
   /// needs linear hinges or a plate, and not plain. See physics/rest/hinge_friction.h, plate_friction.h.
   double bending_friction = 0;
+  /// Asked when a search was stopped, and on the way up to the next level: true: the drape ends with the
+  /// level that it has come to. Empty: a search that was stopped is carried up to the last level.
+  std::function<bool()> interrupted = {};
 };
 
 /// The energy of a cloth by what stores it [J].
@@ -85,10 +88,11 @@ using DrapeObserver = std::function<bool(int level, const physics::SettleProgres
 
 /// Fits a garment on a body (null: it only hangs), from the coarse mesh to the finest. On return the mesh is
 /// refined, has the maps of make_cloth, and its vertices lie where they rest. `cloth` belongs to it, with the
-/// hinges of friction at its end. If stopped on a coarse level, the rest of the way is only carried; a
-/// garment that falls past the body on a coarse level is not refined further. Same input, same bits. Cost:
-/// most of it is the last level's. Throws std::invalid_argument for an option out of its range, the mesh
-/// unchanged; and as loop_subdivide(), make_cloth and settle() do.
+/// hinges of friction at its end. If stopped on a coarse level, the rest of the way is only carried; if
+/// interrupted, or where the garment falls past the body, it ends with that level. Same input, same bits.
+/// Cost: most of it is the last level's. Throws std::invalid_argument for an option out of its range, the
+/// mesh unchanged; physics::Cancelled if interrupted before there is a level; and as loop_subdivide(),
+/// make_cloth and settle() do.
 ///
 /// \details Each level first brings out what lies nearer than the gap (a finer one only what lies deeper than
 /// cloth does at rest), then finds rest, and carries that shape to the next finer level: Loop's masks take

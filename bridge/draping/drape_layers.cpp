@@ -10,6 +10,8 @@
 #include "bridge/arrays/gather.h"
 #include "bridge/draping/energy_parts.h"
 #include "bridge/draping/level_start.h"
+#include "physics/base/cancel_scope.h"
+#include "physics/base/progress.h"
 #include "physics/base/require.h"
 #include "physics/cloth/join_cloths.h"
 #include "physics/rest/settle.h"
@@ -44,7 +46,7 @@ Positions positions_of_all(std::span<const LayerGarment> garments) {
 
 /// What the first level begins with.
 struct Start {
-  const Positions& places;  ///< of all particles, as they were given [m]
+  Positions places;  ///< of all particles, as they were given [m]
   const PlaceNoise& noise;
   double disturbance;  ///< [m]
   std::function<bool(const physics::SettleProgress&, const physics::Cloth&)> go_on;
@@ -63,6 +65,7 @@ struct LevelCloth {
   Positions drawn;  ///< as they were made, each far from the others, where only its own may be near
   std::vector<double> thickness;  ///< by particle [m]
   std::vector<int> group;         ///< by particle: 0 what touches
+  DrapeLevel report;
 };
 
 double thickness_of(const LayerGarment& garment, const DrapeOptions& o) {
@@ -70,6 +73,7 @@ double thickness_of(const LayerGarment& garment, const DrapeOptions& o) {
 }
 
 LevelCloth make_level(std::span<LayerGarment> garments, const DrapeOptions& o) {
+  const physics::CancelScope way_up(cancels_way_up(o));
   LevelCloth level;
   std::vector<physics::Cloth> cloths;
   double shift = 0;
@@ -97,6 +101,15 @@ void rest_alone(physics::Cloth& own, const physics::Collider* body, const DrapeO
   told.soft.iterations += rest.iterations;
   told.soft.factorisations += rest.factorisations;
   told.soft.stopped = told.soft.stopped || rest.stopped;
+}
+
+/// Of all garments as one cloth; it refers to the level.
+physics::SelfContact self_contact_of(const LevelCloth& level, const DrapeOptions& o) {
+  physics::SelfContact self = o.settle.self;
+  self.drawn = level.drawn;
+  self.thicknesses = level.thickness;
+  self.groups = level.group;
+  return self;
 }
 
 /// Of all garments together.
@@ -181,11 +194,11 @@ void share_out(std::span<LayerGarment> garments, const physics::Particles& found
   }
 }
 
-Ended refine_all(std::span<LayerGarment> garments) {
+Ended refine_all(std::span<LayerGarment> garments, const DrapeOptions& o) {
   Ended ended;
   for (LayerGarment& g : garments) {
     ended.coarse.push_back(g.cloth.particles.x);
-    append(ended.fine, refine_level(ended.coarse.back(), g.mesh));
+    append(ended.fine, refine_level(ended.coarse.back(), g.mesh, o));
   }
   return ended;
 }
@@ -197,6 +210,22 @@ void finish(std::span<LayerGarment> garments, std::vector<geometry::Mesh>& made,
     g.mesh = std::move(made[i]);
     scatter(g.cloth.particles, g.mesh);
   }
+}
+
+/// The first level, or the next one. Adds what crossed to `untangled`.
+LevelCloth go_up(std::span<LayerGarment> garments, bool first, const Start& start,
+                 const physics::Collider* body, const DrapeOptions& o, physics::UntangleReport& untangled) {
+  const Ended ended = first ? Ended{} : refine_all(garments, o);
+  Start here = start;
+  here.places = positions_of_all(garments);
+  LevelCloth now = make_level(garments, o);
+  now.report.vertices = now.joined.particles.size();
+  if (first && body)
+    for (LayerGarment& g : garments)
+      g.turned = looks_inwards({g.cloth.particles.x, g.cloth.triangles}, *body);
+  begin_alone(garments, ended, body, o, here, now.report);
+  add_untangled(part_layers(garments, now.joined, self_contact_of(now, o)), untangled);
+  return now;
 }
 
 }  // namespace
@@ -212,40 +241,41 @@ bool looks_inwards(const physics::TriangleMesh& cloth, const physics::Collider& 
 }
 
 LayersReport drape_layers(std::span<LayerGarment> garments, const physics::Collider* body,
-                          const DrapeOptions& asked, const DrapeObserver& go_on) {
-  check_layers(garments, asked);
-  DrapeOptions o = asked;
+                          const DrapeOptions& o, const DrapeObserver& go_on) {
+  check_layers(garments, o);
   LayersReport report;
   const PlaceNoise noise(positions_of_all(garments), o.seed);
   const auto alone = [&](const physics::SettleProgress& p, const physics::Cloth& cloth) {
     return !go_on || go_on(-1, p, cloth);
   };
+  LevelCloth now;
   for (int level = 0; level <= o.refinements; ++level) {
-    const Ended ended = level > 0 ? refine_all(garments) : Ended{};
-    const bool last = level == o.refinements;
-    const Positions places = positions_of_all(garments);
-    LevelCloth now = make_level(garments, asked);
-    o.settle.self.drawn = now.drawn;
-    o.settle.self.thicknesses = now.thickness;
-    o.settle.self.groups = now.group;
-    DrapeLevel& told = report.levels.emplace_back();
-    told.vertices = now.joined.particles.size();
-    report.disturbance = std::ldexp(report.stopped ? 0 : o.disturbance * noise.diagonal(), -level);
-    if (level == 0 && body)
-      for (LayerGarment& g : garments)
-        g.turned = looks_inwards({g.cloth.particles.x, g.cloth.triangles}, *body);
-    begin_alone(garments, ended, body, asked, {places, noise, report.disturbance, alone}, told);
-    report.stopped = report.stopped || told.soft.stopped;
-    add_untangled(part_layers(garments, now.joined, o.settle.self), report.untangled);
+    const double disturbance = std::ldexp(report.stopped ? 0 : o.disturbance * noise.diagonal(), -level);
+    const std::vector<LayerGarment> below(garments.begin(), garments.end());
+    try {
+      now = go_up(garments, level == 0, {{}, noise, disturbance, alone}, body, o, report.untangled);
+    } catch (const physics::Cancelled&) {
+      if (level == 0) throw;
+      std::copy(below.begin(), below.end(), garments.begin());
+      report.stopped = true;
+      break;
+    }
+    report.stopped = report.stopped || now.report.soft.stopped;
     const auto observer = [&](const physics::SettleProgress& progress) {
       return !go_on || report.stopped || go_on(level, progress, now.joined);
     };
-    told.settle = physics::settle(now.joined, body, level_options(o, last, report.stopped), observer);
-    report.stopped = report.stopped || told.settle.stopped;
+    DrapeOptions here = o;
+    here.settle.self = self_contact_of(now, o);
+    now.report.settle = physics::settle(
+        now.joined, body, level_options(here, level == o.refinements, report.stopped), observer);
+    report.stopped = report.stopped || now.report.settle.stopped;
+    report.disturbance = disturbance;
+    report.levels.push_back(now.report);
     share_out(garments, now.joined.particles);
-    if (last) finish(garments, now.made, o.settle.gravity);
+    if (report.stopped && cancels_way_up(o)()) break;
   }
-  report.contact_energy = report.levels.back().settle.contact_energy;
+  finish(garments, now.made, o.settle.gravity);
+  report.contact_energy = now.report.settle.contact_energy;
   return report;
 }
 

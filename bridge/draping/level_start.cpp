@@ -24,12 +24,17 @@ double rest_depth(double gap) { return std::min(gap / 6, 5e-4); }
 /// Positions that a cloth leaves on ways which pass through no cloth.
 class GuardedStart {
  public:
-  GuardedStart(const physics::Cloth& cloth, std::vector<Vec3> at, const physics::SettleOptions& o)
-      : cloth_(cloth), x_(std::move(at)), thickness_(o.self.thickness), pool_(o.threads) {
+  GuardedStart(const physics::Cloth& cloth, std::vector<Vec3> at, const DrapeOptions& o)
+      : cloth_(cloth),
+        x_(std::move(at)),
+        thickness_(o.settle.self.thickness),
+        cancels_(cancels_way_up(o)),
+        pool_(o.settle.threads) {
     look();
   }
 
-  /// Where the cloth crosses itself, it is taken apart; `to` goes with it. Adds to what is told.
+  /// Where the cloth crosses itself, it is taken apart; `to` goes with it. Adds to what is told. A spent
+  /// budget ends it, too.
   void take_apart(std::vector<Vec3>& to, physics::ContourReport& told) {
     if (contact_->crossed_at_start() == 0) return;
     const std::vector<Vec3> before = x_;
@@ -42,6 +47,7 @@ class GuardedStart {
 
   /// `to` becomes what can be reached of it. Returns how many vertices do not arrive.
   int go_to(std::vector<Vec3>& to) {
+    const physics::CancelScope way_up(cancels_);
     const int stopped = contact_->approach(x_, to, &pool_);
     to = x_;
     return stopped;
@@ -49,6 +55,8 @@ class GuardedStart {
 
  private:
   void look() {
+    const physics::CancelScope way_up(cancels_);
+    physics::throw_if_cancelled("drape");
     contact_.emplace(cloth_, physics::ClothContactOptions{thickness_, 1}, x_, std::span<const Vec3>{},
                      &pool_);
   }
@@ -56,6 +64,7 @@ class GuardedStart {
   const physics::Cloth& cloth_;
   std::vector<Vec3> x_;
   double thickness_;
+  std::function<bool()> cancels_;
   physics::ThreadPool pool_;
   std::optional<physics::ClothContact> contact_;
 };
@@ -100,7 +109,7 @@ void begin_level(physics::Cloth& cloth, const Carried& carried, const Disturbanc
     if (p.inv_mass[i] > 0) p.x[i] = carried.fine[i];
   if (disturbance.by > 0) disturb(cloth, disturbance);
   std::optional<GuardedStart> guarded;
-  if (o.settle.self.on) guarded.emplace(cloth, start, o.settle);
+  if (o.settle.self.on) guarded.emplace(cloth, start, o);
   if (guarded) guarded->take_apart(p.x, level.untangled);
   const double gap = o.settle.gap - (carried.fine.empty() ? 0 : rest_depth(o.settle.gap));
   if (body) level.pushed = physics::bring_out(p, *body, gap);
@@ -109,9 +118,14 @@ void begin_level(physics::Cloth& cloth, const Carried& carried, const Disturbanc
   if (level.untangled.left > 0) guarded->take_apart(p.x, level.untangled);  // the push gave it other places
 }
 
-std::vector<Vec3> refine_level(const std::vector<Vec3>& found, geometry::Mesh& garment) {
-  // A search that was stopped goes up to the last level, too.
-  const physics::CancelScope whole([] { return false; });
+std::function<bool()> cancels_way_up(const DrapeOptions& o) {
+  if (o.interrupted) return o.interrupted;
+  return [] { return false; };
+}
+
+std::vector<Vec3> refine_level(const std::vector<Vec3>& found, geometry::Mesh& garment,
+                               const DrapeOptions& o) {
+  const physics::CancelScope way_up(cancels_way_up(o));
   geometry::Mesh shape = garment;  // so that new vertices come in the same order
   for (const geometry::Vertex v : shape.vertices()) shape.point(v) = to_cgal(found[v.idx()]);
   geometry::loop_subdivide(shape, 1);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <functional>
 #include <vector>
 
 #include "bridge/arrays/place_noise.h"
@@ -30,13 +31,18 @@ struct Carried {
 std::vector<physics::Vec3> lay_on_coarse(const std::vector<physics::Vec3>& coarse,
                                          const physics::Cloth& cloth);
 
+/// What cancels the way from one level to the next: an interrupt. A search that was stopped otherwise, as its
+/// budget is spent, is carried up to the last level.
+std::function<bool()> cancels_way_up(const DrapeOptions& options);
+
 /// Puts a level's cloth where it begins: where it was carried, disturbed, and out of the body. With contact
 /// of cloth with cloth on guarded ways; what crosses itself is taken apart there (untangle_contours()).
 void begin_level(physics::Cloth& cloth, const Carried& carried, const Disturbance& disturbance,
                  const physics::Collider* body, const DrapeOptions& options, DrapeLevel& level);
 
 /// The next level's mesh. Returns where the shape that was found lies on it.
-std::vector<physics::Vec3> refine_level(const std::vector<physics::Vec3>& found, geometry::Mesh& garment);
+std::vector<physics::Vec3> refine_level(const std::vector<physics::Vec3>& found, geometry::Mesh& garment,
+                                        const DrapeOptions& options);
 
 /// Of a level's own search: coarse ones end early, and have no guard of faces.
 physics::SettleOptions level_options(const DrapeOptions& options, bool last, bool stopped);

@@ -24,6 +24,7 @@ class Budget : public Listener {
   void progress(const std::string& what, double share) override { other_.progress(what, share); }
   void warn(const Warning& warning) override { other_.warn(warning); }
   bool cancelled() override;
+  bool cancelled_by_user() override { return other_.cancelled_by_user(); }
   bool allows(const std::string& demand) override { return other_.allows(demand); }
   bool replaces(const std::string& path) override { return other_.replaces(path); }
 

@@ -40,6 +40,8 @@ class Listener {
   /// Asked often. true: the job ends within half a second (garments of up to 30,000 vertices; larger ones
   /// take as much longer), and leaves no output half written.
   virtual bool cancelled() { return false; }
+  /// Whether that is the user's wish, not a budget's end: a search then stays with the mesh that it has.
+  virtual bool cancelled_by_user() { return cancelled(); }
   /// Asked where a job would take more memory or time than is likely meant; `demand` says how much. true: it
   /// goes on all the same. false: it throws, and says so.
   virtual bool allows(const std::string& /*demand*/) { return false; }
@@ -53,6 +55,7 @@ class SilentListener : public Listener {
  public:
   explicit SilentListener(Listener& other) : other_(other) {}
   bool cancelled() override { return other_.cancelled(); }
+  bool cancelled_by_user() override { return other_.cancelled_by_user(); }
   bool allows(const std::string& demand) override { return other_.allows(demand); }
   bool replaces(const std::string& path) override { return other_.replaces(path); }
 

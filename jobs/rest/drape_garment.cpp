@@ -70,35 +70,39 @@ struct Gone {
 using Progress = std::function<bool(double)>;
 
 /// watch: null: parts may fall.
-Gone go(const DrapePlan& plan, GarmentMaker& maker, WayRecorder& way, const FallWatch* watch,
-        const Progress& progress) {
+Gone go(const DrapePlan& plan, std::unique_ptr<GarmentMaker>& maker, WayRecorder& way, const FallWatch* watch,
+        const Progress& progress, const Context& context) {
   Gone gone;
+  std::unique_ptr<GarmentMaker> below;
   WayToRest to_rest(plan.options.settle.tolerance);
   const auto observe = [&](int level, const physics::SettleProgress& p, const physics::Cloth& cloth) {
     way.observe(level, cloth);
     if (watch && p.iteration > 0 && p.iteration % 5 == 0)
-      gone.falling = watch->find(cloth.particles.x, maker.held());
+      gone.falling = watch->find(cloth.particles.x, maker->held());
     return progress((level + to_rest.share(p)) / (plan.options.refinements + 1)) && gone.falling.empty();
   };
   bridge::DrapeOptions options = plan.options;
-  options.held_aside = !maker.loose.empty() && plan.scene.pins.empty();
+  options.held_aside = !maker->loose.empty() && plan.scene.pins.empty();
+  options.interrupted = [&context] { return context.listener.cancelled_by_user(); };
   gone.mesh = plan.as_read.mesh;
   gone.report = bridge::drape(gone.mesh, gone.cloth, plan.body ? &plan.body->field : nullptr, options,
-                              std::ref(maker), observe);
-  if (watch && !gone.report.stopped) gone.falling = watch->find(gone.cloth.particles.x, maker.held());
+                              keeping_below(maker, below), observe);
+  go_back_to(gone.mesh, maker, below);
+  if (watch && !gone.report.stopped) gone.falling = watch->find(gone.cloth.particles.x, maker->held());
   return gone;
 }
 
 /// Goes until nothing falls that was not known to: each time with what fell held aside. Where that would be
 /// all, the garment falls, and goes its way to the end.
-Gone go_with_parts(const DrapePlan& plan, GarmentMaker& maker, std::optional<WayRecorder>& way,
-                   const FallWatch& watch, const Progress& progress, const Context& context) {
+Gone go_with_parts(const DrapePlan& plan, std::unique_ptr<GarmentMaker>& maker,
+                   std::optional<WayRecorder>& way, const FallWatch& watch, const Progress& progress,
+                   const Context& context) {
   for (bool watches = plan.settings.loose != LooseUse::fall;;) {
     way.emplace(plan.settings.animation, plan.scene.subdivide, context);
-    Gone gone = go(plan, maker, *way, watches ? &watch : nullptr, progress);
+    Gone gone = go(plan, maker, *way, watches ? &watch : nullptr, progress, context);
     if (gone.falling.empty()) return gone;
-    watches = maker.loose.size() + gone.falling.size() < watch.count();
-    if (watches) maker.loose.insert(maker.loose.end(), gone.falling.begin(), gone.falling.end());
+    watches = maker->loose.size() + gone.falling.size() < watch.count();
+    if (watches) maker->loose.insert(maker->loose.end(), gone.falling.begin(), gone.falling.end());
   }
 }
 
@@ -138,18 +142,19 @@ void finish_loose_parts(const DrapePlan& plan, const std::vector<int>& loose, Dr
 Draped drape_once(const DrapePlan& plan, const FallWatch& watch, std::vector<int>& loose,
                   const Progress& progress, const Context& context) {
   const double start = now();
-  GarmentMaker maker(plan.scene, plan.body, plan.settings, plan.as_read, context, plan.places);
-  maker.loose = loose;
+  auto maker = std::make_unique<GarmentMaker>(plan.scene, plan.body, plan.settings, plan.as_read, context,
+                                              plan.places);
+  maker->loose = loose;
   Draped draped;
   std::optional<WayRecorder> way;
   Gone gone = go_with_parts(plan, maker, way, watch, progress, context);
-  loose = maker.loose;
+  loose = maker->loose;
   const physics::CancelScope whole([] { return false; });  // what was reached is carried and measured, too
-  take_result(std::move(gone), maker, plan, watch, draped);
+  take_result(std::move(gone), *maker, plan, watch, draped);
   draped.seconds = now() - start;
   draped.animated = way->close();
   way.reset();
-  finish_loose_parts(plan, maker.loose, draped);
+  finish_loose_parts(plan, maker->loose, draped);
   return draped;
 }
 

@@ -76,6 +76,7 @@ class LayerSearch {
     bridge::DrapeOptions o = drape_options_of(given[0].scene, settings, gap);
     hold_apart(o, settings);
     if (body) o.settle.faces = {&body->exact, body->field.report().tolerance};
+    o.interrupted = [&context] { return context.listener.cancelled_by_user(); };
     return o;
   }
 
@@ -106,9 +107,10 @@ class LayerSearch {
   std::vector<int> go(const ProgressScope& progress) {
     std::vector<int> falling;
     garments.clear();
+    std::vector<std::unique_ptr<GarmentMaker>> below(given_.size());
     for (std::size_t i = 0; i < given_.size(); ++i)
       garments.push_back({.mesh = given_[i].file.mesh,
-                          .make_cloth = std::ref(*makers[i]),
+                          .make_cloth = keeping_below(makers[i], below[i]),
                           .thickness = thickness_of(given_[i].scene, settings_),
                           .touches = given_[i].scene.touch});
     WayToRest to_rest(options_.settle.tolerance);
@@ -119,6 +121,7 @@ class LayerSearch {
       return progress(share) && falling.empty();
     };
     report = bridge::drape_layers(garments, body_ ? &body_->field : nullptr, options_, observe);
+    for (std::size_t i = 0; i < makers.size(); ++i) go_back_to(garments[i].mesh, makers[i], below[i]);
     return falling;
   }
 

@@ -15,7 +15,6 @@
 #include "jobs/cloth/prepare_garment.h"
 #include "jobs/cloth/scene_cloth.h"
 #include "jobs/rest/made_for.h"
-#include "physics/base/cancel_scope.h"
 #include "physics/body/collider.h"
 #include "physics/cloth/elastic_band.h"
 #include "physics/cloth/pins.h"
@@ -79,7 +78,6 @@ GarmentMaker::GarmentMaker(const io::Scene& scene, const BodyCollider* body, con
 }
 
 physics::Cloth GarmentMaker::operator()(geometry::Mesh& mesh) {
-  const physics::CancelScope whole([] { return false; });  // as of refine_level()
   made = as_read_;
   made.mesh = mesh;
   pins_ = find_pins(made, pins_on(mesh));
@@ -169,6 +167,18 @@ std::vector<io::ScenePins> GarmentMaker::pins_on(const geometry::Mesh& mesh) con
     result[i].vertices.insert(result[i].vertices.end(), loop.begin(), loop.end());
   }
   return result;
+}
+
+bridge::MakeCloth keeping_below(std::unique_ptr<GarmentMaker>& maker, std::unique_ptr<GarmentMaker>& below) {
+  return [&](geometry::Mesh& mesh) {
+    below = std::make_unique<GarmentMaker>(*maker);
+    return (*maker)(mesh);
+  };
+}
+
+void go_back_to(const geometry::Mesh& end, std::unique_ptr<GarmentMaker>& maker,
+                std::unique_ptr<GarmentMaker>& below) {
+  if (maker->made.mesh->number_of_vertices() != end.number_of_vertices()) maker = std::move(below);
 }
 
 }  // namespace furrow::jobs

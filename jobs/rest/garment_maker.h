@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -54,5 +55,12 @@ class GarmentMaker {
   std::vector<char> held_;
   bool told_thin_ = false;
 };
+
+/// Makes the cloth of each level with `maker`, and keeps in `below` what it was before: the maker of the
+/// level below, for a drape that turns back on its way up.
+bridge::MakeCloth keeping_below(std::unique_ptr<GarmentMaker>& maker, std::unique_ptr<GarmentMaker>& below);
+/// What was below becomes the maker, if the drape ended with that level's mesh.
+void go_back_to(const geometry::Mesh& end, std::unique_ptr<GarmentMaker>& maker,
+                std::unique_ptr<GarmentMaker>& below);
 
 }  // namespace furrow::jobs

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "physics/base/cancel_scope.h"
 #include "physics/base/require.h"
 #include "physics/pairs/barrier.h"
 #include "physics/pairs/pair_distance.h"
@@ -273,6 +274,7 @@ int ClothContact::approach(std::span<Vec3> x, std::span<const Vec3> to, ThreadPo
   std::vector<char> stopped(x.size(), 0);
   std::vector<Vec3> way(x.size());
   for (int round = 0; round < most_rounds_of_approach; ++round) {
+    throw_if_cancelled("approach");
     for (std::size_t i = 0; i < x.size(); ++i) way[i] = stopped[i] ? Vec3::Zero() : Vec3(to[i] - x[i]);
     const std::span<const ListedPair> pairs = pairs_on_way(x, way, 1, pool);
     const std::vector<double>& share = shares(pairs, x, way, 1, pool);

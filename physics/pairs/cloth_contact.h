@@ -66,6 +66,7 @@ class ClothContact : public ContactTerm {
                     ThreadPool* pool) override;
   /// Moves x towards other positions [m], each vertex until something is in its way. Returns how many did not
   /// arrive. For starts: a vertex that was stopped stays, however far the others go.
+  /// Throws Cancelled, some way gone.
   int approach(std::span<Vec3> x, std::span<const Vec3> to, ThreadPool* pool);
   /// A pair that is near on a way.
   struct Met {

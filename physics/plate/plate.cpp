@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "physics/base/cancel_scope.h"
 #include "physics/base/require.h"
 #include "physics/plate/plate_slopes.h"
 
@@ -78,6 +79,7 @@ std::vector<Row> curvatures(const PlateNet& net) {
   };
   for (int h = 0; h < int(net.joints.size()); ++h) {
     const PlateNet::Joint& joint = net.joints[std::size_t(h)];
+    if (h % 4096 == 0) throw_if_cancelled("plates");
     if (!joint.coupled) continue;
     const std::vector<HingeShare> left = left_share(net, h);
     place(joint.side[0], left);
@@ -121,6 +123,7 @@ PlateParts make_plate(const PlateSheet& sheet, const PlateOptions& options) {
   const std::vector<int> number = take_hinges(sheet, net, parts);
   Plate& plate = parts.plate;
   for (std::size_t t = 0; t < rows.size(); ++t) {
+    if (t % 4096 == 0) throw_if_cancelled("plates");
     if (rows[t].empty()) continue;
     parts.slivers += net.triangles[t].sliver;
     parts.triangles.push_back(int(t));

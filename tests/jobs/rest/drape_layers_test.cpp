@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "geometry/mesh/sheet.h"
 #include "io/scene/scene.h"
@@ -188,6 +189,35 @@ TEST_CASE("drape: what several garments are not draped with is refused") {
   job.scene.settings.root->erase("body");
   io::set_value(job.scene.settings, "pins.0", io::Json{{"vertices", {0}}}, "the test");
   check_refused(job, "pins");
+}
+
+TEST_CASE("drape: layers that their user cancels end on the level that they have come to", "[long]") {
+  const fs::path folder = tests::empty_folder("drape_layers_cancelled");
+  jobs::DrapeJob job = two_across_ball();
+  job.subdivide = 1;
+  job.output = folder / "worn.ply";
+  tests::Recorder all;
+  jobs::drape(job, all);
+  std::set<std::size_t> ends;
+  for (int k = 1; k < 25; ++k) {
+    tests::Recorder listener(all.asked * k / 25);
+    try {
+      const jobs::DrapeJobReport report = jobs::drape(job, listener);
+      std::size_t vertices = 0;
+      for (const jobs::Draped& d : report.garments) {
+        CHECK(d.outcome() == "interrupted");
+        CHECK(tests::positions(io::read_mesh(d.written)) == tests::positions(d.file));
+        vertices += d.file.mesh->number_of_vertices();
+      }
+      const auto& levels = report.garments.at(0).report.levels;
+      CHECK(vertices == levels.back().vertices);
+      ends.insert(levels.size());
+    } catch (const physics::Cancelled&) {
+      ends.insert(0);
+    }
+  }
+  CHECK(ends.count(1) == 1);
+  CHECK(ends.count(2) == 1);
 }
 
 TEST_CASE("layer_output: a garment's name goes where braces stand, else before the ending") {

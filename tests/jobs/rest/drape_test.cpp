@@ -172,6 +172,34 @@ TEST_CASE("drape: what a cancelled job reached is reported, and written whole", 
   }
 }
 
+TEST_CASE("drape: cancelled by its user at any question, a garment ends on the level that it has come to",
+          "[long]") {
+  const fs::path folder = tests::empty_folder("drape_cancelled_on_its_way_up");
+  jobs::DrapeJob job = across_ball();
+  job.subdivide = 2;
+  job.settings.bands = {{"0", 0.9}};
+  job.output = folder / "worn.ply";
+  tests::Recorder all;
+  jobs::drape(job, all);
+  std::set<std::size_t> ends;
+  for (int k = 1; k < 40; ++k) {
+    fs::remove(job.output);
+    tests::Recorder listener(all.asked * k / 40);
+    try {
+      const jobs::DrapeJobReport report = jobs::drape(job, listener);
+      const jobs::Draped& d = report.garments.at(0);
+      CHECK(d.outcome() == "interrupted");
+      CHECK(d.file.mesh->number_of_vertices() == d.report.levels.back().vertices);
+      CHECK(tests::positions(io::read_mesh(job.output)) == tests::positions(d.file));
+      ends.insert(d.report.levels.size());
+    } catch (const physics::Cancelled&) {
+      CHECK_FALSE(fs::exists(job.output));
+      ends.insert(0);
+    }
+  }
+  CHECK(ends == std::set<std::size_t>{0, 1, 2, 3});
+}
+
 TEST_CASE("drape: of several starts the rest with the lowest energy is taken, and numbers have a spread",
           "[release]") {
   const fs::path folder = tests::empty_folder("drape_starts");
