@@ -38,9 +38,10 @@ void check(const DrapeOptions& o) {
           o.plain ? "0, as the plain scheme needs it" : ">= 0");
 }
 
-physics::SettleReport find_rest(physics::Cloth& cloth, const physics::Collider* body, bool plain,
-                                const physics::SettleOptions& o, const physics::SettleObserver& observer) {
-  if (!plain) return physics::settle(cloth, body, o, observer);
+physics::SettleReport find_rest(physics::Cloth& cloth, const physics::Collider* body,
+                                const DrapeOptions& asked, const physics::SettleOptions& o,
+                                const physics::SettleObserver& observer) {
+  if (!asked.plain) return settle_level(cloth, body, o, asked, observer);
   physics::DisplaceOptions options;
   options.gravity = o.gravity;
   options.friction = o.friction;
@@ -164,7 +165,7 @@ void come_to_rest(Level& now, int number, const physics::Collider* body, const D
     report.friction_rounds = rest.rounds;
     report.slip = rest.slip;
   } else {
-    now.report.settle = find_rest(now.cloth, body, o.plain, settle, observer);
+    now.report.settle = find_rest(now.cloth, body, o, settle, observer);
   }
   report.falls = !last && falls_past(now.cloth, body, o, observer, now.report.settle);
   report.stopped = report.stopped || now.report.settle.stopped;
@@ -183,13 +184,14 @@ DrapeReport drape(geometry::Mesh& garment, physics::Cloth& cloth, const physics:
   for (int level = 0; level <= o.refinements; ++level) {
     const double disturbance = std::ldexp(report.stopped ? 0 : o.disturbance * noise.diagonal(), -level);
     try {
-      now = go_up(garment, now.cloth, disturbance, noise, body, o, make_cloth);
+      Level next = go_up(garment, now.cloth, disturbance, noise, body, o, make_cloth);
+      come_to_rest(next, level, body, o, go_on, report);
+      now = std::move(next);
     } catch (const physics::Cancelled&) {
       if (level == 0) throw;
       report.stopped = true;
       break;
     }
-    come_to_rest(now, level, body, o, go_on, report);
     report.disturbance = disturbance;
     report.levels.push_back(now.report);
     if (report.falls || (report.stopped && cancels_way_up(o)())) break;

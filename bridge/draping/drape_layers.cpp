@@ -228,6 +228,20 @@ LevelCloth go_up(std::span<LayerGarment> garments, bool first, const Start& star
   return now;
 }
 
+/// Of all garments as one cloth. Notes in the report whether it was stopped.
+void come_to_rest(LevelCloth& now, int number, const physics::Collider* body, const DrapeOptions& asked,
+                  const DrapeObserver& go_on, LayersReport& report) {
+  report.stopped = report.stopped || now.report.soft.stopped;
+  const auto observer = [&](const physics::SettleProgress& progress) {
+    return !go_on || report.stopped || go_on(number, progress, now.joined);
+  };
+  DrapeOptions o = asked;
+  o.settle.self = self_contact_of(now, asked);
+  const physics::SettleOptions settle = level_options(o, number == o.refinements, report.stopped);
+  now.report.settle = settle_level(now.joined, body, settle, o, observer);
+  report.stopped = report.stopped || now.report.settle.stopped;
+}
+
 }  // namespace
 
 bool looks_inwards(const physics::TriangleMesh& cloth, const physics::Collider& body) {
@@ -253,22 +267,16 @@ LayersReport drape_layers(std::span<LayerGarment> garments, const physics::Colli
     const double disturbance = std::ldexp(report.stopped ? 0 : o.disturbance * noise.diagonal(), -level);
     const std::vector<LayerGarment> below(garments.begin(), garments.end());
     try {
-      now = go_up(garments, level == 0, {{}, noise, disturbance, alone}, body, o, report.untangled);
+      LevelCloth next =
+          go_up(garments, level == 0, {{}, noise, disturbance, alone}, body, o, report.untangled);
+      come_to_rest(next, level, body, o, go_on, report);
+      now = std::move(next);
     } catch (const physics::Cancelled&) {
       if (level == 0) throw;
       std::copy(below.begin(), below.end(), garments.begin());
       report.stopped = true;
       break;
     }
-    report.stopped = report.stopped || now.report.soft.stopped;
-    const auto observer = [&](const physics::SettleProgress& progress) {
-      return !go_on || report.stopped || go_on(level, progress, now.joined);
-    };
-    DrapeOptions here = o;
-    here.settle.self = self_contact_of(now, o);
-    now.report.settle = physics::settle(
-        now.joined, body, level_options(here, level == o.refinements, report.stopped), observer);
-    report.stopped = report.stopped || now.report.settle.stopped;
     report.disturbance = disturbance;
     report.levels.push_back(now.report);
     share_out(garments, now.joined.particles);

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -131,6 +132,21 @@ std::vector<Vec3> refine_level(const std::vector<Vec3>& found, geometry::Mesh& g
   geometry::loop_subdivide(shape, 1);
   geometry::loop_subdivide(garment, 1);
   return positions_of(shape);
+}
+
+physics::SettleReport settle_level(physics::Cloth& cloth, const physics::Collider* body,
+                                   const physics::SettleOptions& settle, const DrapeOptions& o,
+                                   const physics::SettleObserver& observer) {
+  const physics::SettleReport found = physics::settle(cloth, body, settle, observer);
+  if (!found.stopped || std::isfinite(found.residual)) return found;
+  const physics::CancelScope way_up(cancels_way_up(o));
+  physics::throw_if_cancelled("drape");
+  physics::SettleOptions none = settle;
+  none.max_iterations = none.self.max_iterations = 0;
+  physics::SettleReport report = physics::settle(cloth, body, none);
+  if (!std::isfinite(report.residual)) physics::throw_if_cancelled("drape");
+  report.stopped = true;
+  return report;
 }
 
 physics::SettleOptions level_options(const DrapeOptions& o, bool last, bool stopped) {

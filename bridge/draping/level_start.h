@@ -44,6 +44,12 @@ void begin_level(physics::Cloth& cloth, const Carried& carried, const Disturbanc
 std::vector<physics::Vec3> refine_level(const std::vector<physics::Vec3>& found, geometry::Mesh& garment,
                                         const DrapeOptions& options);
 
+/// physics::settle() of a level. One that was stopped before its first iteration balances nothing, and finds
+/// the residual. Throws physics::Cancelled if it was interrupted then.
+physics::SettleReport settle_level(physics::Cloth& cloth, const physics::Collider* body,
+                                   const physics::SettleOptions& settle, const DrapeOptions& options,
+                                   const physics::SettleObserver& observer);
+
 /// Of a level's own search: coarse ones end early, and have no guard of faces.
 physics::SettleOptions level_options(const DrapeOptions& options, bool last, bool stopped);
 

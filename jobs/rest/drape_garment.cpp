@@ -93,14 +93,25 @@ Gone go(const DrapePlan& plan, std::unique_ptr<GarmentMaker>& maker, WayRecorder
 }
 
 /// Goes until nothing falls that was not known to: each time with what fell held aside. Where that would be
-/// all, the garment falls, and goes its way to the end.
+/// all, the garment falls, and goes its way to the end. Cancelled before a way has a state, the one before it
+/// is what there is.
 Gone go_with_parts(const DrapePlan& plan, std::unique_ptr<GarmentMaker>& maker,
                    std::optional<WayRecorder>& way, const FallWatch& watch, const Progress& progress,
                    const Context& context) {
+  std::unique_ptr<GarmentMaker> maker_before;
+  Gone gone;
   for (bool watches = plan.settings.loose != LooseUse::fall;;) {
     way.emplace(plan.settings.animation, plan.scene.subdivide, context);
-    Gone gone = go(plan, maker, *way, watches ? &watch : nullptr, progress, context);
+    try {
+      gone = go(plan, maker, *way, watches ? &watch : nullptr, progress, context);
+    } catch (const physics::Cancelled&) {
+      if (!maker_before) throw;
+      maker = std::move(maker_before);
+      gone.report.stopped = true;
+      return gone;
+    }
     if (gone.falling.empty()) return gone;
+    maker_before = std::make_unique<GarmentMaker>(*maker);
     watches = maker->loose.size() + gone.falling.size() < watch.count();
     if (watches) maker->loose.insert(maker->loose.end(), gone.falling.begin(), gone.falling.end());
   }

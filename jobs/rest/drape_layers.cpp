@@ -18,6 +18,7 @@
 #include "jobs/rest/loose_parts.h"
 #include "jobs/rest/measure_layers.h"
 #include "physics/base/cancel_scope.h"
+#include "physics/base/progress.h"
 
 namespace furrow::jobs {
 namespace {
@@ -53,10 +54,25 @@ class LayerSearch {
     watch_ = std::make_unique<FallWatch>(joined_mesh(meshes), body, options_.settle.gap);
   }
 
-  /// Until nothing falls that was not known to.
+  /// Until nothing falls that was not known to. Cancelled before a try has a state, the one before it is what
+  /// there is.
   void run(const ProgressScope& progress) {
-    for (std::vector<int> falling = go(progress); !falling.empty(); falling = go(progress))
+    for (std::vector<int> falling = go(progress); !falling.empty();) {
+      const std::vector<bridge::LayerGarment> fell = garments;
+      const bridge::LayersReport of_fall = report;
+      std::vector<std::unique_ptr<GarmentMaker>> before;
+      for (const auto& maker : makers) before.push_back(std::make_unique<GarmentMaker>(*maker));
       for (const int v : falling) hold(v);
+      try {
+        falling = go(progress);
+      } catch (const physics::Cancelled&) {
+        garments = fell;
+        report = of_fall;
+        makers = std::move(before);
+        report.stopped = true;
+        return;
+      }
+    }
   }
 
   const bridge::DrapeOptions& drape_options() const { return options_; }

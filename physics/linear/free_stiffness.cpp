@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "physics/base/cancel_scope.h"
 #include "physics/linear/negative_pivots.h"
 
 namespace furrow::physics {
@@ -34,8 +35,10 @@ FreeStiffness::FreeStiffness(const Cloth& cloth, bool narrow) : narrow_(narrow) 
   particles_ = cloth.particles.size();
   counts_ = count_elements(cloth, {0, narrow_});
   const Pairs pairs = block_pairs(cloth, {0, narrow_});
+  throw_if_cancelled("stiffness");
   pattern_ = hash_of(pairs);
   matrix_ = BlockMatrix(cloth.particles.inv_mass, pairs);
+  throw_if_cancelled("stiffness");
   place_blocks(pairs);
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -137,7 +138,9 @@ class Settler {
         elements_(cloth),
         stiffness_(stiffness_for(cloth, true, options.work)),
         pool_(options.threads) {
+    throw_if_cancelled("settle");
     stiffness_->assemble(cloth, p_.x, Stiffness::positive_part);
+    throw_if_cancelled("settle");
     const double k = contact_share * stiffness_->mean_diagonal();
     if (o_.self.on)
       pairs_.emplace(cloth,
@@ -464,7 +467,16 @@ class Settler {
 SettleReport settle(Cloth& cloth, const Collider* collider, const SettleOptions& options,
                     const SettleObserver& observer) {
   check(cloth, options);
-  const SettleReport report = Settler(cloth, collider, options).run(observer);
+  std::optional<Settler> settler;
+  try {
+    settler.emplace(cloth, collider, options);
+  } catch (const Cancelled&) {
+    SettleReport report;
+    report.residual = std::numeric_limits<double>::infinity();
+    report.stopped = true;
+    return report;
+  }
+  const SettleReport report = settler->run(observer);
   for (Vec3& v : cloth.particles.v) v.setZero();
   return report;
 }

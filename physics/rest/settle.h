@@ -105,7 +105,8 @@ struct SettleReport {
 /// counts for nothing. Where friction acts there are many such states, and the start chooses; a start that
 /// lies deeper in the body than the gap should be brought out first (bring_out()).
 /// Cost: a factorisation or two an iteration, O(n^1.5) for n particles of a sheet; some 10 to 30 iterations.
-/// Same input, same bits. Throws std::invalid_argument, nothing changed, if an option is out of its range,
+/// Cancelled before its first iteration, it reports no residual (infinity). Same input, same bits. Throws
+/// std::invalid_argument, nothing changed, if an option is out of its range,
 /// arrays differ in length, a position is not finite, a free particle has no mass, or as the elements do.
 ///
 /// \details Newton's method on the energy of elements, weight and AnchoredContact. Where the Hessian is not

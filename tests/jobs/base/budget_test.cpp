@@ -105,7 +105,7 @@ TEST_CASE("budget: once there is a state, whenever a drape is cancelled, it retu
   garment.add_face(corner(0.2, 0), corner(0.2, 0.01), corner(0.21, 0));  // a button beside it, which falls
   int returned = 0, thrown_later = 0;
   bool whole = false;
-  for (int at = 1; !whole; at += 1 + at / 12) {
+  for (int at = 1; !whole; at += 1 + at / 25) {
     tests::Recorder recorder(at);
     try {
       whole = !jobs::drape(job, recorder).cancelled();
