@@ -210,6 +210,7 @@ void add_draped(Lines& lines, const Json& report) {
   lines.push_back(text_of(report, "garment") + ": " + text_of(report, "outcome") + " (" +
                   std::to_string(vertices) + " vertices, " + refined(count_of(report, "subdivide")) + ", " +
                   number(value_of(report, "seconds")) + " s)");
+  if (!report.contains("fit")) return lines.push_back("not measured: `furrow fit` measures what was written");
   const std::string asked = length(report, "gap_asked"), taken = length(report, "gap");
   if (table_of(table_of(report, "fit"), "distance").empty())
     lines.push_back("no body: it hangs from its pins");
@@ -563,6 +564,10 @@ Lines drape_lines(const Json& report) {
     return lines;
   }
   for (const Json& d : garments) {
+    if (!d.contains("fit")) {
+      add_draped(lines, d);
+      continue;
+    }
     const Json& strain = table_of(table_of(d, "fit"), "strain");
     lines.push_back(text_of(d, "garment") + ": " + text_of(d, "outcome") + "; " +
                     per_cent(value_of(strain, "share_over")) + " of the cloth strained over " +

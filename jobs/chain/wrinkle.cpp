@@ -280,7 +280,7 @@ void settle_drawn(const WrinkleJob& job, const RestPlan& plan, const Budget& bud
   const bool holds = job.hold && can_hold_lines(scene.material);
   Draped draped = holds ? hold_drawn(report.garment, scene, body, budget, there)
                         : drape_garment(scene, body, {}, false, there);
-  report.budget_spent = draped.budget_spent = draped.report.stopped && budget.is_spent();
+  report.budget_spent = draped.budget_spent = draped.report.stopped && draped.measured && budget.is_spent();
   draped.refinements = plan.refinements;
   draped.name = scene.garment.stem().string();
   for (const DrapeRemark& r : remarks_on({&draped, 1}))

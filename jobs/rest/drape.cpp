@@ -283,7 +283,7 @@ DrapeJobReport drape(const DrapeJob& job, Listener& listener) {
   Budget budget("drape", job.budget, listener);
   const physics::CancelScope cancelling([&budget] { return budget.cancelled(); });
   DrapeJobReport report = budget.run([&] { return drape_all(job, budget); });
-  report.budget_spent = report.cancelled() && budget.is_spent();
+  report.budget_spent = report.cancelled() && report.garments.back().measured && budget.is_spent();
   for (Draped& d : report.garments) d.budget_spent = report.budget_spent;
   return report;
 }

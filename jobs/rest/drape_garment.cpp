@@ -83,7 +83,6 @@ Gone go(const DrapePlan& plan, std::unique_ptr<GarmentMaker>& maker, WayRecorder
   };
   bridge::DrapeOptions options = plan.options;
   options.held_aside = !maker->loose.empty() && plan.scene.pins.empty();
-  options.interrupted = [&context] { return context.listener.cancelled_by_user(); };
   gone.mesh = plan.as_read.mesh;
   gone.report = bridge::drape(gone.mesh, gone.cloth, plan.body ? &plan.body->field : nullptr, options,
                               keeping_below(maker, below), observe);
@@ -265,6 +264,7 @@ Draped drape_garment(const io::Scene& asked, const BodyCollider* body, const Dra
   const io::Scene& scene = given.scene;
   const double gap = s.gap.value_or(0) > 0 ? *s.gap : gap_of(scene, body, given.file.mesh, context);
   DrapePlan plan{scene, body, s, given.file, drape_options_of(scene, s, gap), given.places()};
+  plan.options.interrupted = [&context] { return context.listener.cancelled_by_user(); };
   plan.options.soft_start = soft_start_of(given.file, !scene.pins.empty());
   if (body) plan.options.settle.faces = {&body->exact, body->field.report().tolerance};
   const FallWatch watch(at_places(given.file.mesh, given.places()), body, gap);

@@ -231,6 +231,8 @@ WornOver drape_worn_over(std::span<const io::Scene> scenes, std::span<const std:
     layers.push_back({&*given[i].file.mesh, nullptr, turned, given[i].scene.touch});
   }
   for (std::size_t i = 0; i < layers.size(); ++i) layers[i].now = &*worn.garments[i].file.mesh;
+  if (std::any_of(worn.garments.begin(), worn.garments.end(), [](const Draped& d) { return !d.measured; }))
+    return worn;
   worn.layers.pairs = measure_layers(layers, worn.garments);
   for (Draped& d : worn.garments) take_facts(d);
   return worn;

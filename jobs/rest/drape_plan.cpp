@@ -120,7 +120,9 @@ bridge::DrapeOptions drape_options_of(const io::Scene& scene, const DrapeSetting
 }
 
 void measure_draped(const DrapePlan& plan, Draped& draped) {
-  const physics::CancelScope whole([] { return false; });  // one that was stopped is measured, too
+  if (plan.options.interrupted && plan.options.interrupted()) return;
+  const physics::CancelScope whole([] { return false; });  // one whose budget is spent is measured, too
+  draped.measured = true;
   const CrossedStart crossed = crossed_start(plan.as_read.mesh, draped.refinements);
   draped.self_contact = plan.options.settle.self.on;
   draped.limits = {std::size_t(plan.scene.allow_crossings), plan.settings.penetration,
@@ -153,7 +155,7 @@ void carry_and_measure(const DrapePlan& plan, std::span<const int> loose, Draped
     measure_draped(plan, d);
   };
   carry(draped, LooseCarry::as_one);
-  if (draped.succeeds()) return;
+  if (!draped.measured || draped.succeeds()) return;
   Draped other = draped;
   carry(other, LooseCarry::by_place);
   if (is_better(other.end, draped.end, draped.limits)) draped = std::move(other);

@@ -521,6 +521,15 @@ Json to_json(const Draped& d) {
   const bridge::DrapeLevel& last = d.report.levels.back();
   Json levels = Json::array();
   for (const bridge::DrapeLevel& level : d.report.levels) levels.push_back(level_json(level));
+  if (!d.measured) {
+    Json part{{"garment", d.name},
+              {"outcome", d.outcome()},
+              {"subdivide", d.refinements},
+              {"seconds", d.seconds},
+              {"levels", levels}};
+    if (!d.written.empty()) part["written"] = d.written.string();
+    return part;
+  }
   Json json{{"garment", d.name},
             {"outcome", d.outcome()},
             {"converged", d.rests()},

@@ -190,6 +190,7 @@ TEST_CASE("drape: cancelled by its user at any question, a garment ends on the l
       const jobs::Draped& d = report.garments.at(0);
       CHECK(d.outcome() == "interrupted");
       CHECK(d.file.mesh->number_of_vertices() == d.report.levels.back().vertices);
+      CHECK(to_json(report).contains("fit") == d.measured);
       CHECK(tests::positions(io::read_mesh(job.output)) == tests::positions(d.file));
       ends.insert(d.report.levels.size());
     } catch (const physics::Cancelled&) {
