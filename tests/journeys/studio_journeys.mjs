@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Two ways through the studio in a real browser (tests/studio/browser.mjs), from `furrow studio` with no argument to a
+// Three ways through the studio in a real browser (tests/studio/browser.mjs), from `furrow studio` with no argument to a
 // drawing that is opened again: with a skirt of the gallery, and with a dress in centimetres, z up, and its body, as
 // files of one's own. In each state all buttons are pressed, and the picture is looked at.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
-import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { accessible, end, furrow, meshes, open, picture, replay, run, scratch, still, stroke, studio, until } from "../studio/browser.mjs";
 
@@ -239,8 +239,41 @@ async function ofOnesOwn() {
   await journey(first, seen, { folder: "dress-studio", strokes, keeps: false });  // it takes minutes
 }
 
+/** By mouse alone: five ridges on the gallery's skirt stand as they were drawn when the cloth has come to rest. */
+async function fiveRidges() {
+  const first = await studio(), seen = await open(first.url, 0), { tab } = seen, dialog = tab.locator("dialog.open");
+  const button = (name, where = tab) => where.getByRole("button", { name, exact: true });
+  await until("the gallery", async () => (await dialog.getByRole("button").count()) > 3);
+  await button("A skirt on a figure", dialog).click();
+  await until("the skirt", async () => Number(await tab.locator("footer").getAttribute("data-frames")) >= 2 && (await dialog.count()) === 0);
+  await still(seen);
+  await button("Ridge").click();
+  for (const [i, x] of [0.34, 0.42, 0.5, 0.58, 0.66].entries()) {
+    await (await stroke(tab, [[0.5 + 0.7 * (x - 0.5), 0.36], [x, 0.84]]))();
+    await seen.at(i + 1);
+  }
+  await button("Drape").click();
+  await done(seen, 6);
+  await isAtRest(seen);
+  assert.doesNotMatch(await seen.words(), /lost|lower than/);
+  await still(seen);
+  await seen.shot("19-five-ridges");
+  await end(first.program);
+  await tab.close();
+  const log = readFileSync(join(scratch, "skirt-studio", "log.jsonl"), "utf8").trim().split("\n").map((line) => JSON.parse(line));
+  const strokes = log.filter((step) => step.do === "draw").map(({ height, points }) => ({ height, points }));
+  assert.equal(strokes.length, 5);
+  assert.ok(strokes.every(({ height }) => height === 0.02));
+  writeFileSync(join(scratch, "five.json"), JSON.stringify({ strokes }));
+  const again = spawnSync(furrow, ["wrinkle", join(meshes, "skirt.obj"), "five.json", "--settle", "--body", join(meshes, "mannequin.obj"), "--pin-loop", "top", "-o", "five.ply", "--json"], { cwd: scratch, encoding: "utf8" });
+  assert.equal(again.status, 0, again.stderr);
+  for (const { name, kept } of JSON.parse(again.stdout).at_rest.lines) assert.ok(kept > 0.8 && kept < 1.3, `${name} kept ${kept}`);
+}
+
 await run(async () => {
-  const only = process.argv[6];  // "gallery" or "own": one of them
-  if (only !== "own") await fromTheGallery();
-  if (only !== "gallery") await ofOnesOwn();
+  const only = process.argv[6];  // "ridges", "gallery" or "own": one of them
+  if (!only || only === "ridges") await fiveRidges();
+  rmSync(join(scratch, "skirt-studio"), { recursive: true, force: true });
+  if (!only || only === "gallery") await fromTheGallery();
+  if (!only || only === "own") await ofOnesOwn();
 });

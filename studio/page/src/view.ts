@@ -43,6 +43,10 @@ const dark: Colours = {
 /** A picture that takes longer is drawn with fewer pixels while things change [ms]. */
 const slow = 45;
 
+/** Where the light stands, as the camera looks [the cloth's size]: aside, so that low folds have a light and a dark
+ *  flank. */
+const raking = new THREE.Vector3(-1.7, 1.1, 1.25);
+
 /** Where a point of the pen's band lies above the cloth [share of the cloth's size]. */
 const lift = 0.0018;
 
@@ -58,7 +62,8 @@ export class View {
   size = 1; // the cloth's diagonal [m]
   seen: Seen = { body: true, wire: false, lines: true };
   private scene = new THREE.Scene();
-  private key = new THREE.DirectionalLight(0xffffff, 2.1);
+  private key = new THREE.DirectionalLight(0xffffff, 2.7);
+  private fill = new THREE.DirectionalLight(0xffffff, 0.7); // so that no side is black
   private wire: THREE.LineSegments;
   private band: THREE.Mesh;
   private pins: THREE.Points;
@@ -131,7 +136,7 @@ export class View {
     this.handles.renderOrder = this.rope.renderOrder = 3;
     for (const solid of [this.cloth, this.body]) solid.castShadow = solid.receiveShadow = true;
     this.scene.add(this.handles, this.plane, this.rope);
-    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8d8478, 1.15), this.key, this.key.target);
+    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8d8478, 0.85), this.key, this.fill, this.key.target);
     this.scene.add(this.cloth, this.body, this.wire, this.lines, this.pins, this.band);
     const scheme = matchMedia("(prefers-color-scheme: dark)");
     scheme.addEventListener("change", () => this.paint(scheme.matches));
@@ -199,11 +204,11 @@ export class View {
   /** `ratio`: pixels of the picture a pixel of the page. */
   private renderWith(ratio: number, hasShadows: boolean) {
     if (this.renderer.getPixelRatio() !== ratio) this.renderer.setPixelRatio(ratio); // which sets the size, too
-    const fromAbove = new THREE.Vector3(-0.55, 0.75, 2.25)
-      .multiplyScalar(this.size)
-      .applyQuaternion(this.camera.quaternion);
+    const fromAside = raking.clone().multiplyScalar(this.size).applyQuaternion(this.camera.quaternion);
     this.key.target.position.copy(this.controls.target);
-    this.key.position.copy(this.controls.target).add(fromAbove); // however far the camera is
+    this.key.position.copy(this.controls.target).add(fromAside); // however far the camera is
+    this.fill.target = this.key.target;
+    this.fill.position.copy(this.camera.position);
     this.shade(hasShadows);
     // three counts a picture before it draws the shadows, and would take what has changed since then for sent.
     ++this.renderer.info.render.frame;
@@ -374,11 +379,12 @@ export class View {
           geometry,
           new LineMaterial({
             color: colour,
-            linewidth: isChosen ? 5 : 2,
-            transparent: !isChosen,
-            opacity: isChosen ? 1 : 0.75,
+            linewidth: isChosen ? 4 : 1.5,
+            dashed: !isChosen, // a thin stitch: the fold is to be seen, not its line
+            dashSize: 0.012 * this.size,
+            gapSize: 0.008 * this.size,
           }),
-        ),
+        ).computeLineDistances(),
       );
     }
   }
