@@ -149,6 +149,7 @@ async function journey(first, seen, { folder, strokes, keeps }) {
   if (keeps) {
     await done(seen, ++step);
     await until("the verdicts", async () => (await tab.locator(".verdicts li").count()) === 2);
+    await fromTheFront(seen);
     await shot("3-kept");
     await tab.getByRole("button", { name: "Drape it", exact: true }).click();
   } else {

@@ -89,6 +89,8 @@ async function reachBordersAndChangeAll(seen) {
   await until("the history tells its steps", async () => /draw ridge 1[^]*draw ridge 2[^]*change the height of 3 lines/.test(await list.innerText()));
   await list.getByRole("button", { name: "draw ridge 2" }).click();
   await seen.at(4);
+  await tab.waitForTimeout(600);
+  await seen.shot("20-history");
   await list.getByRole("button", { name: /change the height of/ }).first().click();
   await seen.at(3);
   await tab.getByText("History", { exact: true }).click();
