@@ -59,6 +59,7 @@ RestStage rest_stage(io::MeshFile& garment, const io::Scene& scene, const std::v
   const std::unique_ptr<physics::Collider> collider = body ? body->at_start() : nullptr;
   const std::unique_ptr<physics::Collider> precise = body ? body->precise_at_start() : nullptr;
   bridge::DrapeOptions options = rest_options(scene, gap, garment);
+  options.interrupted = [&context] { return context.listener.cancelled(); };
   if (precise) options.settle.faces = {precise.get(), body->tolerance()};
   const ProgressScope progress(context.listener, "settling");
   WayToRest to_rest(physics::SettleOptions{}.tolerance);

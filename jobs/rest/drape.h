@@ -199,7 +199,7 @@ struct Draped {
   std::size_t crossings_with_others = 0;  ///< pairs of its faces and those of other garments that cross
   std::filesystem::path written;          ///< its file, where there are several garments
   bool budget_spent = false;              ///< that ended the search
-  bool measured = false;                  ///< false: interrupted by its user; what is measured is not known
+  bool measured = false;                  ///< false: its user interrupted it; what is measured is not known
 
   /// Whether its forces balance where it was worn.
   bool rests() const { return end.rests(limits) && end.finite && !end.falls(); }

@@ -120,7 +120,10 @@ bridge::DrapeOptions drape_options_of(const io::Scene& scene, const DrapeSetting
 }
 
 void measure_draped(const DrapePlan& plan, Draped& draped) {
-  if (plan.options.interrupted && plan.options.interrupted()) return;
+  if (plan.options.interrupted && plan.options.interrupted()) {
+    draped.report.stopped = true;
+    return;
+  }
   const physics::CancelScope whole([] { return false; });  // one whose budget is spent is measured, too
   draped.measured = true;
   const CrossedStart crossed = crossed_start(plan.as_read.mesh, draped.refinements);

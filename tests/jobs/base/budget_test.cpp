@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <ctime>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -37,6 +38,21 @@ jobs::DrapeJob over_ball() {
   job.subdivide = 2;
   return job;
 }
+
+/// Takes processor time as soon as the balance of what is drawn begins.
+class SlowBalance : public tests::Recorder {
+ public:
+  explicit SlowBalance(double seconds) : seconds_(seconds) {}
+  void progress(const std::string& what, double share) override {
+    Recorder::progress(what, share);
+    if (what != "balancing what is drawn" || share > 0) return;
+    for (const std::clock_t begin = std::clock(); double(std::clock() - begin) < seconds_ * CLOCKS_PER_SEC;) {
+    }
+  }
+
+ private:
+  double seconds_;
+};
 
 }  // namespace
 
@@ -124,6 +140,28 @@ TEST_CASE("budget: a keep without time for its first rest state says so") {
   job.budget = 1e-6;
   tests::Recorder recorder;
   CHECK_THROWS_AS(jobs::keep(job, recorder), jobs::BudgetSpent);
+}
+
+TEST_CASE("budget: where to balance what is drawn takes over half of it, lines fall, and that is said",
+          "[release]") {
+  jobs::WrinkleJob job;
+  job.settle = over_ball().scene;
+  job.garment = job.settle->memory.meshes["sheet"];
+  io::DrawnStroke ridge;
+  ridge.stroke.name = "ridge";
+  ridge.stroke.height = 0.01;
+  ridge.stroke.points = {{-0.05, 0.105, 0}, {0.05, 0.105, 0}};
+  job.strokes = std::vector{ridge};
+  job.budget = 8;
+  tests::Recorder quick;
+  CHECK(jobs::wrinkle(job, quick).rest);
+  CHECK_FALSE(quick.warned_of("lines_not_held"));
+  SlowBalance slow(4.2);
+  const jobs::WrinkleReport report = jobs::wrinkle(job, slow);
+  CHECK(slow.warned_of("lines_not_held"));
+  REQUIRE(report.rest);
+  CHECK(report.rest->report.levels.back().settle.converged);
+  CHECK_FALSE(report.budget_spent);
 }
 
 TEST_CASE("budget: of lines that come to rest, drawing is a part") {

@@ -199,6 +199,12 @@ TEST_CASE("drape: cancelled by its user at any question, a garment ends on the l
     }
   }
   CHECK(ends == std::set<std::size_t>{0, 1, 2, 3});
+  for (int at = all.asked - 8; at <= all.asked; ++at) {  // about the end, where it is measured
+    tests::Recorder listener(at);
+    const jobs::Draped d = jobs::drape(job, listener).garments.at(0);
+    CHECK((d.measured || d.outcome() == "interrupted"));
+    CHECK(to_json(d).contains("fit") == d.measured);
+  }
 }
 
 TEST_CASE("drape: of several starts the rest with the lowest energy is taken, and numbers have a spread",
