@@ -90,6 +90,7 @@ async function reachBordersAndChangeAll(seen) {
   await list.getByRole("button", { name: "draw ridge 2" }).click();
   await seen.at(4);
   await tab.waitForTimeout(600);
+  await list.getByRole("button").last().scrollIntoViewIfNeeded();
   await seen.shot("20-history");
   await list.getByRole("button", { name: /change the height of/ }).first().click();
   await seen.at(3);

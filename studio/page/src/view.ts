@@ -62,8 +62,8 @@ export class View {
   size = 1; // the cloth's diagonal [m]
   seen: Seen = { body: true, wire: false, lines: true };
   private scene = new THREE.Scene();
-  private key = new THREE.DirectionalLight(0xffffff, 2.7);
-  private fill = new THREE.DirectionalLight(0xffffff, 0.7); // so that no side is black
+  private key = new THREE.DirectionalLight();
+  private fill = new THREE.DirectionalLight(); // so that no side is black
   private wire: THREE.LineSegments;
   private band: THREE.Mesh;
   private pins: THREE.Points;
@@ -276,6 +276,7 @@ export class View {
     if (material.vertexColors !== fits) material.needsUpdate = true;
     material.vertexColors = fits;
     material.color.set(fits ? 0xffffff : this.colours.cloth);
+    [this.key.intensity, this.fill.intensity] = fits ? [1, 2] : [2.7, 0.7]; // colours are read by even light
     if (fits) {
       const one = new THREE.Color(),
         linear = Float32Array.from(
