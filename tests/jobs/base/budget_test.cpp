@@ -39,6 +39,19 @@ jobs::DrapeJob over_ball() {
   return job;
 }
 
+/// A ridge on it, which comes to rest.
+jobs::WrinkleJob ridge_over_ball() {
+  jobs::WrinkleJob job;
+  job.settle = over_ball().scene;
+  job.garment = job.settle->memory.meshes["sheet"];
+  io::DrawnStroke ridge;
+  ridge.stroke.name = "ridge";
+  ridge.stroke.height = 0.01;
+  ridge.stroke.points = {{-0.05, 0.105, 0}, {0.05, 0.105, 0}};
+  job.strokes = std::vector{ridge};
+  return job;
+}
+
 /// Takes processor time as soon as the balance of what is drawn begins.
 class SlowBalance : public tests::Recorder {
  public:
@@ -144,14 +157,7 @@ TEST_CASE("budget: a keep without time for its first rest state says so") {
 
 TEST_CASE("budget: where to balance what is drawn takes over half of it, lines fall, and that is said",
           "[release]") {
-  jobs::WrinkleJob job;
-  job.settle = over_ball().scene;
-  job.garment = job.settle->memory.meshes["sheet"];
-  io::DrawnStroke ridge;
-  ridge.stroke.name = "ridge";
-  ridge.stroke.height = 0.01;
-  ridge.stroke.points = {{-0.05, 0.105, 0}, {0.05, 0.105, 0}};
-  job.strokes = std::vector{ridge};
+  jobs::WrinkleJob job = ridge_over_ball();
   job.budget = 8;
   tests::Recorder quick;
   CHECK(jobs::wrinkle(job, quick).rest);
@@ -166,14 +172,7 @@ TEST_CASE("budget: where to balance what is drawn takes over half of it, lines f
 
 TEST_CASE("budget: of lines that come to rest, drawing is a part") {
   const fs::path folder = tests::empty_folder("budget_drawn");
-  jobs::WrinkleJob job;
-  job.settle = over_ball().scene;
-  job.garment = job.settle->memory.meshes["sheet"];
-  io::DrawnStroke ridge;
-  ridge.stroke.name = "ridge";
-  ridge.stroke.height = 0.01;
-  ridge.stroke.points = {{-0.05, 0.105, 0}, {0.05, 0.105, 0}};
-  job.strokes = std::vector{ridge};
+  jobs::WrinkleJob job = ridge_over_ball();
   job.smoothed = folder / "drawn.ply";
   job.budget = 1e-6;
   tests::Recorder recorder;
