@@ -288,8 +288,7 @@ std::vector<Vec3> StepSearch::solve(std::vector<Vec3> net) {
 }
 
 /// Makes a share of a move; 0: none lowers the energy, and x is as it was. `here` is of x at the end.
-StepSearch::Way StepSearch::advance(const std::vector<Vec3>& move, std::vector<Vec3>& x, Answer& here,
-                                    const SearchOptions& options) {
+StepSearch::Way StepSearch::advance(const std::vector<Vec3>& move, std::vector<Vec3>& x, Answer& here) {
   const double slope = -dot(here.net, move);
   const double longest = longest_length(move);
   double most = std::numeric_limits<double>::infinity();
@@ -380,7 +379,7 @@ void StepSearch::follow_friction(const StageStart& start, const SearchOptions& o
     if (friction_bias() * mean_length(solve(here.net)) <= followed * options.tolerance) return;
     factorise(x, SlipStiffness::none);
     ++work_.iterations;
-    const Way way = advance(solve(here.net), x, here, options);
+    const Way way = advance(solve(here.net), x, here);
     if (way.cut || way.share == 0) return;
   }
 }
@@ -416,7 +415,7 @@ SearchEnd StepSearch::descend(const StageStart& start, const SearchOptions& opti
       move = solve(here.net);
     }
     const Lengths lengths{mean_length(move), longest_length(move)};
-    const Way way = advance(move, x, here, options);
+    const Way way = advance(move, x, here);
     share = way.share;
     relimit = false;
     if (iteration == 1 && rubs()) {

@@ -131,8 +131,7 @@ class StepSearch {
   std::vector<Vec3> solve(std::vector<Vec3> net);
   std::optional<Answer> land(const std::vector<Vec3>& from, std::vector<Vec3>& to);
   bool make_room(const std::vector<Vec3>& from, const std::vector<Vec3>& to);
-  Way advance(const std::vector<Vec3>& move, std::vector<Vec3>& x, Answer& here,
-              const SearchOptions& options);
+  Way advance(const std::vector<Vec3>& move, std::vector<Vec3>& x, Answer& here);
   double mean_length(const std::vector<Vec3>& move) const;
   double stretch_of(const std::vector<Vec3>& move, const std::vector<Vec3>& x) const;
   bool is_good_enough(int iteration, const std::vector<Vec3>& move, Lengths lengths,
