@@ -107,7 +107,7 @@ std::string words_of(const CaseReport& r) {
                      r.error.empty() ? "" : ": ", r.error);
 }
 
-ExitCode exit_code_of(const CaseReport& r) {
+ExitCode exit_code_of_case(const CaseReport& r) {
   return r.state == CaseState::open ? exit_interrupted : r.state == CaseState::failed ? exit_failed : exit_ok;
 }
 
@@ -118,7 +118,7 @@ int run_case_of_batch(const BatchArguments& a) {
   Json json = json_of(report);
   json["record"] = a.plan;
   print_report(json, a, {{words_of(report)}, {}, {}});
-  return exit_code_of(report);
+  return exit_code_of_case(report);
 }
 
 /// The lines of a file that Slurm's script names, one after the other.
@@ -142,7 +142,7 @@ int run_task_of_batch(const BatchArguments& a) {
   for (const CaseReport& one : reports) {
     json["cases"].push_back(json_of(one));
     words.push_back(words_of(one));
-    exit_code = std::max(exit_code, int(exit_code_of(one)));
+    exit_code = std::max(exit_code, int(exit_code_of_case(one)));
   }
   print_report(json, a, {words, {}, {}});
   return exit_code;

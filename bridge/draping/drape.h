@@ -76,7 +76,7 @@ struct DrapeReport {
   int friction_rounds = 0;         ///< rests after each of which what bends too far gave way
   double slip = 0;                 ///< of a hinge or an edge in the last of them [rad]
   EnergyParts energy;              ///< of the last level; weight against the garment as it was given
-  bool stopped = false;            ///< by go_on
+  bool stopped = false;            ///< by go_on, or interrupted
   bool falls = false;              ///< a coarse level came to lie on nothing: there are no finer ones
 };
 

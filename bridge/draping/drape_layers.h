@@ -27,7 +27,7 @@ struct LayersReport {
   physics::UntangleReport untangled;  ///< before the first level
   double disturbance = 0;             ///< of the last level [m]
   double contact_energy = 0;          ///< of the last level [J]
-  bool stopped = false;               ///< by go_on
+  bool stopped = false;               ///< by go_on, or interrupted
 };
 
 /// Drapes garments over each other, the innermost first, as one cloth of several parts with contact of cloth

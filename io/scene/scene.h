@@ -65,7 +65,6 @@ struct SceneLines {
 struct SceneBody {
   std::filesystem::path mesh;
   std::optional<std::string> unit;  ///< of its file and of its frames; none: that of all files
-  std::filesystem::path field;      ///< saved by furrow sdf; empty: built
   std::filesystem::path cache;      ///< folder where what is made of its file is kept; empty: nowhere
   std::filesystem::path frames;  ///< PC2, MDD or OBJ sequence of a body that changes its shape; empty: rigid
   double fps = 0;                ///< of frames whose file names no times [1/s]; 0: as the file says, else 25

@@ -62,7 +62,7 @@ io::WriteOptions write_options(const Frame& frame) { return {metres_per_unit(fra
 namespace {
 
 void tell_repairs(const std::string& path, const io::MeshFile& file, const Context& context) {
-  for (const std::string& w : file.warnings) context.warn("mesh_reading", path + ": " + w, path);
+  for (const std::string& w : file.warnings) context.warn("mesh_reading", w, path);  // it names the file
   const io::RepairReport& r = file.repairs;
   const auto tell = [&](std::size_t n, const char* code, const char* what) {
     if (n) context.warn(code, path + ": " + std::to_string(n) + " " + what, path);

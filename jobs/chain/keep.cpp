@@ -50,8 +50,7 @@ void check_outputs(const KeepJob& job, const OpenScene& open, Listener& listener
   std::vector<std::string> inputs{job.state_path.string(), scene.garment.string()};
   if (of_file) inputs.push_back(open.document.name);
   if (scene.body)
-    for (const auto& path : {scene.body->mesh, scene.body->field, scene.body->frames})
-      inputs.push_back(path.string());
+    for (const auto& path : {scene.body->mesh, scene.body->frames}) inputs.push_back(path.string());
   for (const io::SceneLines& lines : scene.lines) inputs.push_back(lines.strokes.string());
   std::vector<std::string> outputs{out.mesh.string(), out.state.string()};
   outputs.insert(outputs.end(), job.more_outputs.begin(), job.more_outputs.end());

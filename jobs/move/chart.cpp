@@ -19,8 +19,7 @@ namespace {
 void spare_inputs(const io::Scene& scene, const ChartJob& job) {
   std::vector<std::string> files{scene.garment.string()};
   if (scene.body)
-    for (const auto& path : {scene.body->mesh, scene.body->field, scene.body->frames})
-      files.push_back(path.string());
+    for (const auto& path : {scene.body->mesh, scene.body->frames}) files.push_back(path.string());
   for (const io::SceneLines& lines : scene.lines) files.push_back(lines.strokes.string());
   refuse_same({job.picture.string(), job.csv.string()}, files);
 }

@@ -19,8 +19,7 @@ std::vector<std::string> inputs(const io::Scene& scene, const io::TomlDocument& 
   std::vector<std::string> files{scene.garment.string(), job.state_path.string()};
   if (is_scene(document.name)) files.push_back(document.name);
   if (scene.body)
-    for (const auto& path : {scene.body->mesh, scene.body->field, scene.body->frames})
-      files.push_back(path.string());
+    for (const auto& path : {scene.body->mesh, scene.body->frames}) files.push_back(path.string());
   for (const io::SceneLines& lines : scene.lines) files.push_back(lines.strokes.string());
   std::erase(files, "");
   return files;

@@ -124,8 +124,7 @@ void check(const DrapeJob& job, const GarmentScenes& all, const io::Scene& scene
     throw std::invalid_argument(animation + ": the ending names no animation; choose pc2, mdd or glb");
   check_folder(animation);
   std::vector<std::string> inputs{scene.garment.string(), s.made_for.string()};
-  if (scene.body)
-    for (const auto& path : {scene.body->mesh, scene.body->field}) inputs.push_back(path.string());
+  if (scene.body) inputs.push_back(scene.body->mesh.string());
   inputs.insert(inputs.end(), job.more_inputs.begin(), job.more_inputs.end());
   std::vector<std::string> outputs{output, animation};
   if (all.size() > 1) {

@@ -63,7 +63,8 @@ GivenGarment read_given(const io::Scene& scene, const BodyCollider* body, const 
                         bool choose, const Context& context);
 
 /// What a garment that was draped has come to: `draped` has its file, its report and the ends of its parts.
-/// One that its user cancelled is not measured: that takes as long as a second at 131,000 vertices.
+/// One that its user cancels before is interrupted, and not measured: that takes a second at 131,000
+/// vertices.
 void measure_draped(const DrapePlan& plan, Draped& draped);
 
 /// The same of one with parts that were held aside (a vertex of each): first they go with the other parts, as

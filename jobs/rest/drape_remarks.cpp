@@ -134,7 +134,7 @@ void remark_on_way_back(const Draped& d, std::vector<DrapeRemark>& remarks) {
       {false,
        {"contact_left_out",
         fmt::format(
-            "{}: draped without contact of cloth with cloth, as with it the garment ends {}{} after {} "
+            "{}: draped without contact of cloth with cloth, as its end with it is no better: {}{} after {} "
             "iterations, residual force {:.2g}, {} pairs of faces crossing; `self_contact=on` writes "
             "that, off does not look for it",
             d.name, other.outcome, where, other.iterations, other.residual, other.crossings),
@@ -144,12 +144,13 @@ void remark_on_way_back(const Draped& d, std::vector<DrapeRemark>& remarks) {
 /// With contact it is no success either, and still the better end.
 void remark_on_way_kept(const Draped& d, std::vector<DrapeRemark>& remarks) {
   if (!d.other || d.other->self_contact) return;
-  remarks.push_back({false,
-                     {"contact_kept",
-                      fmt::format("{}: without contact of cloth with cloth the garment ends {}, {} pairs of "
-                                  "faces crossing, which is worse; `self_contact=off` writes that",
-                                  d.name, d.other->outcome, d.other->crossings),
-                      d.name, "self_contact"}});
+  remarks.push_back(
+      {false,
+       {"contact_kept",
+        fmt::format("{}: draped with contact of cloth with cloth, as its end without it is worse: {}, {} "
+                    "pairs of faces crossing; `self_contact=off` writes that",
+                    d.name, d.other->outcome, d.other->crossings),
+        d.name, "self_contact"}});
 }
 
 /// Lines that lost their height, or have no vertex left to measure it by.

@@ -44,7 +44,6 @@ io::Scene scene_in_frame(SceneInput& input) {
   check_inputs(scene, input.settings, -1);
   require_regular(scene.garment);
   if (scene.body) require_regular(scene.body->mesh);
-  if (scene.body) require_regular(scene.body->field);
   if (scene.body) require_regular(scene.body->frames);
   for (const io::SceneLines& round : scene.lines) require_regular(round.strokes);
   take_noted_frame(scene, input.settings);

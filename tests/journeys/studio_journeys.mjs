@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Three ways through the studio in a real browser (tests/studio/browser.mjs), from `furrow studio` with no argument to a
-// drawing that is opened again: with a skirt of the gallery, and with a dress in centimetres, z up, and its body, as
-// files of one's own. In each state all buttons are pressed, and the picture is looked at.
+// Ways through the studio in a real browser (tests/studio/browser.mjs). Two lead from `furrow studio` with no argument to
+// a drawing that is opened again: with a skirt of the gallery, and with a dress in centimetres, z up, and its body, as
+// files of one's own. In each state all buttons are pressed, and the picture is looked at. The third is a new user's
+// first minute: five ridges, drawn by mouse, that stand at rest.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
@@ -206,14 +207,22 @@ async function openAgain(folder, step) {
   assert.equal(readFileSync(join(scratch, folder, "replay", "mine.txt"), "utf8"), "mine");
 }
 
-async function fromTheGallery() {
-  const first = await studio(), seen = await open(first.url, 0), dialog = seen.tab.locator("dialog.open");
+/** Opens the skirt of the gallery. */
+async function openSkirt(seen, look = async () => {}) {
+  const dialog = seen.tab.locator("dialog.open");
   await until("the gallery", async () => (await dialog.getByRole("button").count()) > 3);
-  await accessible(seen, "gallery");
-  await seen.shot("13-gallery");
-  assert.ok(await dialog.getByRole("button", { name: "Open", exact: true }).isDisabled(), "nothing is chosen");
+  await look(dialog);
   await dialog.getByRole("button", { name: "A skirt on a figure", exact: true }).click();
   await until("the skirt", async () => Number(await seen.tab.locator("footer").getAttribute("data-frames")) >= 2 && (await dialog.count()) === 0);
+}
+
+async function fromTheGallery() {
+  const first = await studio(), seen = await open(first.url, 0);
+  await openSkirt(seen, async (dialog) => {
+    await accessible(seen, "gallery");
+    await seen.shot("13-gallery");
+    assert.ok(await dialog.getByRole("button", { name: "Open", exact: true }).isDisabled(), "nothing is chosen");
+  });
   const strokes = [[[0.53, 0.3], [0.53, 0.55], [0.54, 0.84]], [[0.42, 0.32], [0.4, 0.84]], [[0.48, 0.4], [0.48, 0.8]]];
   await journey(first, seen, { folder: "skirt-studio", strokes, keeps: true });
 }
@@ -240,41 +249,49 @@ async function ofOnesOwn() {
   await journey(first, seen, { folder: "dress-studio", strokes, keeps: false });  // it takes minutes
 }
 
+/** What a PLY holds, whatever its header says of where it comes from. */
+const content = (path) => readFileSync(path).toString("latin1").split("end_header\n")[1];
+
 /** By mouse alone: five ridges on the gallery's skirt stand as they were drawn when the cloth has come to rest. */
 async function fiveRidges() {
-  const first = await studio(), seen = await open(first.url, 0), { tab } = seen, dialog = tab.locator("dialog.open");
-  const button = (name, where = tab) => where.getByRole("button", { name, exact: true });
-  await until("the gallery", async () => (await dialog.getByRole("button").count()) > 3);
-  await button("A skirt on a figure", dialog).click();
-  await until("the skirt", async () => Number(await tab.locator("footer").getAttribute("data-frames")) >= 2 && (await dialog.count()) === 0);
+  const first = await studio(), seen = await open(first.url, 0), { tab } = seen;
+  const press = (name) => tab.getByRole("button", { name, exact: true }).click();
+  await openSkirt(seen);
   await still(seen);
-  await button("Ridge").click();
+  await press("Ridge");
   for (const [i, x] of [0.34, 0.42, 0.5, 0.58, 0.66].entries()) {
     await (await stroke(tab, [[0.5 + 0.7 * (x - 0.5), 0.36], [x, 0.84]]))();
     await seen.at(i + 1);
   }
-  await button("Drape").click();
+  await press("Drape");
   await done(seen, 6);
   await isAtRest(seen);
   assert.doesNotMatch(await seen.words(), /lost|lower than/);
   await still(seen);
   await seen.shot("19-five-ridges");
+  await press("Save");
+  await until("saved", async () => (await seen.words()).startsWith("Saved"));
   await end(first.program);
   await tab.close();
-  const log = readFileSync(join(scratch, "skirt-studio", "log.jsonl"), "utf8").trim().split("\n").map((line) => JSON.parse(line));
-  const strokes = log.filter((step) => step.do === "draw").map(({ height, points }) => ({ height, points }));
-  assert.equal(strokes.length, 5);
-  assert.ok(strokes.every(({ height }) => height === 0.02));
+  checkRidges(join(scratch, "skirt-studio"));
+}
+
+/** The command line draws the strokes of the page's log to the same bits, and measures them. */
+function checkRidges(project) {
+  const steps = readFileSync(join(project, "log.jsonl"), "utf8").trim().split("\n").map((line) => JSON.parse(line));
+  const strokes = steps.filter((step) => step.do === "draw").map(({ height, points }, i) => ({ name: `ridge ${i + 1}`, height, points }));
+  assert.deepEqual(strokes.map(({ height }) => height), Array(5).fill(0.02));
   writeFileSync(join(scratch, "five.json"), JSON.stringify({ strokes }));
   const again = spawnSync(furrow, ["wrinkle", join(meshes, "skirt.obj"), "five.json", "--settle", "--body", join(meshes, "mannequin.obj"), "--pin-loop", "top", "-o", "five.ply", "--json"], { cwd: scratch, encoding: "utf8" });
   assert.equal(again.status, 0, again.stderr);
+  assert.ok(content(join(project, "rest-1.ply")) === content(join(scratch, "five.ply")), "the same bits");
   for (const { name, kept } of JSON.parse(again.stdout).at_rest.lines) assert.ok(kept > 0.8 && kept < 1.3, `${name} kept ${kept}`);
+  rmSync(project, { recursive: true });
 }
 
 await run(async () => {
   const only = process.argv[6];  // "ridges", "gallery" or "own": one of them
   if (!only || only === "ridges") await fiveRidges();
-  rmSync(join(scratch, "skirt-studio"), { recursive: true, force: true });
   if (!only || only === "gallery") await fromTheGallery();
   if (!only || only === "own") await ofOnesOwn();
 });
