@@ -18,7 +18,7 @@ TEST_CASE("journeys: Ctrl-C ends every long command with a whole file or a sente
       "drape tunic.obj --body she.obj --subdivide 3", "wrinkle tunic.obj line.json --settle --body she.obj",
       "simulate tunic.obj --body she.obj --seconds 60", "transfer tunic.obj tunic.obj --rest-shape tunic.obj",
       "doctor tunic.obj --body she.obj", "drape tunic.obj --body she.obj --self-contact on --starts 9");
-  const std::string after = GENERATE("0.05", "0.3", "0.8", "2");
+  const std::string after = GENERATE("0.2", "0.4", "0.8", "2");
   std::filesystem::remove("out.ply");
   const bool writes = words.rfind("doctor", 0) != 0;
   const Run run = run_furrow(words + (writes ? " -o out.ply" : ""),

@@ -125,7 +125,6 @@ function Verdicts({ kept, actions }: { kept: Done; actions: ClothActions }) {
 }
 
 export function Cloth({ status, busy, mayDraw, map, moving, speed, kept, actions }: Props) {
-  const hasLines = status.lines.some((line) => line.on); // that are to be kept before all else
   const idle = busy === "" && mayDraw,
     held = status.can_drape,
     brought = !status.made_for_another;
@@ -146,17 +145,16 @@ export function Cloth({ status, busy, mayDraw, map, moving, speed, kept, actions
       <Wind wind={status.wind} blow={actions.wind} />
       <div class="group wrap">
         <button
-          class={hasLines && brought ? "main" : ""}
           disabled={!held || !brought || !idle}
-          title="Make the lines last, and tell of each whether it will hold (K)"
+          title="Try each line in gusts, and tell whether it will hold (K)"
           onClick={actions.keep}
         >
           Keep
         </button>
         <button
-          class={(hasLines && brought) || kept ? "" : "main"}
+          class={kept ? "" : "main"}
           disabled={!held || !idle}
-          title="Let it come to rest (D)"
+          title="Let it come to rest, with lines that last (D)"
           onClick={actions.drape}
         >
           Drape
