@@ -2,9 +2,9 @@
 // How far the verdicts of bridge::keep_lines can be trusted: 200 lines at random on 80 coarse garments. A
 // line that is called held must keep 95 to 105 % of the told height in another run than the verdict's own,
 // and after gusts to four sides; for one that cannot hold all help is tried that there is.
-// random_lines [CSV [threads [first [end [word ...]]]]]. Words: plate, their bending is one; fast, verdicts
-// by one gust; motion, without statics; leapfrog, runs of a verdict by leapfrog; ornate, lines over the
-// hem, half circles and rings; quick, what "cannot hold" is not tried harder.
+// random_lines [CSV [threads [first [end [word ...]]]]]. Words: plate, their bending is one; leapfrog, runs
+// of a verdict by leapfrog; ornate, lines over the hem, half circles and rings; quick, what "cannot hold" is
+// not tried harder.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -160,7 +160,7 @@ class TryHarder {
 /// What the words ask for.
 struct Asked {
   bridge::Bending bending = bridge::Bending::hinge;
-  bool statics = true, prove = true, implicit = true, quick = false, ornate = false;
+  bool implicit = true, quick = false, ornate = false;
 };
 
 Judged judge(int number, const Asked& asked) {
@@ -170,8 +170,6 @@ Judged judge(int number, const Asked& asked) {
   j.garment.springs.bending = asked.bending;
   bridge::KeepOptions o;
   o.seconds = 2;
-  o.statics = asked.statics;
-  o.prove = asked.prove;
   const physics::SimulateOptions leapfrog = o.run;
   if (asked.implicit) o.run.integrator = physics::Integrator::implicit;
   RandomGarment kept = j.garment;
@@ -256,11 +254,9 @@ int main(int argc, char** argv) {
   for (int i = 5; i < argc; ++i) {
     const std::string word = argv[i];
     if (word == "plate") asked.bending = furrow::bridge::Bending::plate;
-    if (word == "fast") asked.prove = false;
     if (word == "ornate") asked.ornate = true;
     if (word == "leapfrog") asked.implicit = false;
     if (word == "quick") asked.quick = true;
-    if (word == "motion") asked.statics = false;
   }
   std::vector<std::optional<Judged>> all(end);
   std::FILE* file = std::fopen(path, "w");

@@ -69,12 +69,6 @@ struct KeepOptions {
   /// By line id: the height that was asked for [m], as line_heights() measures it less `base`; NaN, 0 or
   /// missing: that at which the line lies.
   std::vector<double> line_heights = {};
-  /// Each trial begins with a search for rest, and what fails there is helped before anything runs
-  /// (bridge/keeping/try_statics.h).
-  bool statics = true;
-  /// Runs decide. Without, a trial is a calm, one gust and a calm by long steps (try_one_gust()), and no more
-  /// is known of lines that are called held.
-  bool prove = true;
   bool whole = false;  ///< the rest of the garment is pressed, too, until nothing in it is unstable
 };
 
@@ -86,7 +80,7 @@ enum class Verdict {
   pressed,
   strutted,
   lowered,   ///< it stands, at less than `kept` of the height that was asked for
-  may_hold,  ///< it kept its height, but hardly, or only in gusts no stronger than asked for: see reason
+  may_hold,  ///< it stands where nothing blows, but not in gusts, or hardly: see reason
   cannot_hold
 };
 
@@ -114,7 +108,6 @@ struct KeepReport {
   int pushed_out = 0;        ///< particles nearer to the body than the gap, brought there first
   double farthest_push = 0;  ///< the longest way of one [m]
   int trials = 0, runs = 0;  ///< rest states that were solved for, and forward runs
-  bool proved = true;        ///< by runs; false: in one gust by long steps
   double drift = 0;          ///< of any vertex in the last trial's runs without gusts [m]
   bool interrupted = false;  ///< the last rest state stands; lines say what is known
 };
@@ -137,14 +130,14 @@ using KeepObserver = std::function<bool(const KeepProgress&)>;
 /// changed, if an option is out of its range or cloth and mesh do not fit; and as prestress() and simulate()
 /// do.
 ///
-/// \details A verdict asks the certificate of stability (physics/rest/certificate.h) and runs forward, from
-/// rest and through gusts. What is nearer to the body than the gap is first brought there: a valley on a body
-/// is as deep as there is room. Lines that do not hold are helped by a step, by two where they are off by a
-/// fifth or had help before, and with them those that use half of what they may lose in gusts: press (their
-/// hinges stiffer), then struts on top of the strongest press, then a lower height. Once a line without help
-/// fails in a later trial than the first, all lines get the first step. The first help that holds stays.
-/// Trials blow harder than asked for. A line that only this takes away, with all help, is tried in gusts as
-/// they were asked for: what stands those may hold and is not lowered.
+/// \details What takes part in a motion that nothing holds back (physics/rest/certificate.h), or loses its
+/// height in a search for rest, is helped by a step, by two where it is off by a fifth or had help before:
+/// press (its hinges stiffer), then struts on top of the strongest press, then a lower height. Once a line
+/// without help fails in a later trial than the first, all lines get the first step. The first help with
+/// which all lines rest stays, and then runs forward, from rest and through gusts, have the last word: what
+/// moves without a gust is helped again; what gusts alone take may hold, and the report says what they left.
+/// What is nearer to the body than the gap is first brought there: a valley on a body is as deep as there is
+/// room.
 ///
 /// With `whole` the hinges between the lines are pressed likewise, where the motion that nothing holds back
 /// is theirs.

@@ -24,11 +24,9 @@ namespace {
 
 using physics::Vec3;
 
-constexpr double share_of_statics = 0.05;  // of a trial, as its progress is told
-// A line that is off by so much is given two steps of help at once [-], as one is that had help before; and
-// where others are helped, one that uses so much of what it may lose goes with them [-]: less is allowed
-// where one gust is all that is tried.
-constexpr double far_off = 0.2, near_the_edge = 0.5, near_in_one_gust = 0.4;
+constexpr double share_of_search = 0.05;  // of a trial, as its progress is told
+// A line that is off by so much is given two steps of help at once [-], as one is that had help before.
+constexpr double far_off = 0.2;
 
 /// What it took so far.
 struct Tally {
@@ -60,95 +58,29 @@ class Keeper {
     return {plan, std::move(outcome)};
   }
 
-  /// More help for what needs it, until nothing does or all is given.
-  TriedPlan help_by_stiffness(KeepPlan plan, Tally& tally) const {
+  /// More help for what needs it to rest, until nothing does or all is given; then motion tries it. What
+  /// moves without a gust needs help again.
+  TriedPlan help(KeepPlan plan, Tally& tally) const {
     for (std::optional<TriedPlan> last;;) {
       // Cancelled before there is any rest state, it comes out.
       std::optional<TriedPlan> solved = last ? try_solve(plan, tally) : found_by(plan, tally);
       if (!solved) return std::move(*last);
       TriedPlan& found = last.emplace(std::move(*solved));
-      Steps weak = loose_lines(found);
-      for (std::size_t i = 0; i < weak.size(); ++i)
-        weak[i] = can_be_helped(plan.lines[i]) && (weak[i] || is_bound(plan.lines[i], found.outcome));
-      const bool rest = rest_needs_help(found);
       if (hangs_wrong(found.outcome)) return std::move(found);
-      if (!any(weak) && !rest) weak = try_out(found, true, tally);
+      Steps weak = weak_by_certificate(found);
+      const bool rest = rest_needs_help(found);
+      if (!any(weak) && !rest) weak = weak_at_rest(found, tally);
+      if (!any(weak) && !rest && !tally.interrupted) {
+        if (failing(found) > 0) found = help_what_is_left(std::move(found), tally);
+        if (!tally.interrupted) weak = weak_in_motion(found, tally);
+      }
       if ((!any(weak) && !rest) || tally.interrupted) return std::move(found);
-      // A line that gives way lets the next one go. All lines get help then, which saves trials; long steps
-      // give two steps at once.
+      plan = found.plan;
+      // A line that gives way lets the next one go. All lines get help then, which saves trials.
       const bool one_by_one = tally.trials > 1 && fails_anew(weak, plan.lines);
-      if (any(weak)) add_near_the_edge(found, weak);
-      tally.helped = add_help(weak, one_by_one ? (o_.prove ? 1 : 2) : 0, o_, plan.lines);
+      tally.helped = add_help(weak, one_by_one ? 1 : 0, o_, plan.lines);
       plan.rest_step += rest ? 1 : 0;
     }
-  }
-
-  /// Gives all help to all lines, since a neighbour that holds by itself can let a line go. The help stays if
-  /// more lines hold.
-  TriedPlan help_all(TriedPlan least, Tally& tally) const {
-    const auto is_helped = [&](const HelpedLine& line) { return !can_be_helped(line); };
-    const std::size_t before = failing(least);
-    if (before == 0 || hangs_wrong(least.outcome) ||
-        std::all_of(least.plan.lines.begin(), least.plan.lines.end(), is_helped))
-      return least;
-    const double drift = tally.drift;
-    KeepPlan plan = least.plan;
-    for (HelpedLine& line : plan.lines) line.step = help_steps(o_);
-    tally.helped = int(plan.lines.size());
-    std::optional<TriedPlan> most = try_solve(plan, tally);
-    if (!most) return least;
-    try_out(*most, false, tally);
-    if (tally.interrupted || failing(*most) < before) return std::move(*most);
-    tally.drift = drift;
-    return least;
-  }
-
-  /// Bisects the heights of all lines at once that fail, and not in stronger gusts alone.
-  TriedPlan help_by_height(TriedPlan found, Tally& tally) const {
-    const LineFlags good = good_lines(found, o_.kept);
-    std::vector<std::size_t> lines;
-    for (std::size_t i = 0; i < good.size(); ++i)
-      if (!good[i] && !may_hold(found, i, o_.kept)) lines.push_back(i);
-    if (lines.empty() || hangs_wrong(found.outcome)) return found;
-    tally.helped = int(lines.size());
-    const double drift = tally.drift;
-    KeepPlan plan = found.plan;
-    std::vector<double> low(lines.size(), 0), high(lines.size(), 1);  // low: the greatest that held
-    for (int trial = 0; trial < o_.height_trials && !tally.interrupted; ++trial) {
-      for (std::size_t i = 0; i < lines.size(); ++i) plan.lines[lines[i]].height = (low[i] + high[i]) / 2;
-      const std::optional<TriedPlan> tried = try_forward(plan, tally);
-      if (!tried) return found;
-      const LineFlags now = good_lines(*tried, o_.kept);
-      for (std::size_t i = 0; i < lines.size(); ++i)
-        (now[lines[i]] ? low[i] : high[i]) = plan.lines[lines[i]].height;
-    }
-    if (tally.interrupted) return found;
-    if (std::all_of(low.begin(), low.end(), [](double height) { return height == 0; })) {
-      tally.drift = drift;  // nothing lower holds: what was found stands
-      return found;
-    }
-    for (std::size_t i = 0; i < lines.size(); ++i) plan.lines[lines[i]].height = low[i] > 0 ? low[i] : 1;
-    return try_forward(plan, tally).value_or(std::move(found));
-  }
-
-  /// Where gusts that are stronger than asked for, as those of implicit steps and of one gust are, took a
-  /// line away: what those that were asked for do.
-  void try_named_gusts(TriedPlan& found, Tally& tally) const {
-    const bool blown_harder =
-        o_.gust > 0 && (!o_.prove || o_.run.integrator == physics::Integrator::implicit);
-    const auto lost_in_gusts = [&](std::size_t i) {
-      return std::abs(found.outcome.kept[i] - 1) <= 1 - o_.kept && may_be_judged(found, i) &&
-             !(std::abs(found.outcome.kept_gust[i] - 1) <= 1 - o_.kept);
-    };
-    bool any = false;
-    for (std::size_t i = 0; i < found.plan.lines.size(); ++i) any = any || lost_in_gusts(i);
-    if (!blown_harder || !any || !found.outcome.kept_named.empty()) return;
-    tally.runs += o_.prove ? 1 : 0;
-    // The plan's own trial has been shown to its end, and progress never goes back.
-    const KeepTrial trial = try_shape(
-        found.outcome.cloth, true, world_, o_, meter_, {}, [&](double) { return go_on(1, tally); }, 1);
-    tally.interrupted = trial.stopped;
-    if (!trial.stopped) found.outcome.kept_named = trial.kept_gust;
   }
 
   /// For the report: trials need to know only whether there are any.
@@ -186,95 +118,112 @@ class Keeper {
     return outcome;
   }
 
-  /// Statics first, then motion, unless that is in vain. As run_forward().
-  Steps try_out(TriedPlan& found, bool may_end, Tally& tally) const {
+  /// A step for each line that gives way without effort, or that the rest state's bounds leave no balance.
+  Steps weak_by_certificate(const TriedPlan& found) const {
+    Steps weak = loose_lines(found);
+    for (std::size_t i = 0; i < weak.size(); ++i)
+      weak[i] =
+          can_be_helped(found.plan.lines[i]) && (weak[i] || is_bound(found.plan.lines[i], found.outcome));
+    return weak;
+  }
+
+  /// Notes what the lines keep at rest, as a search finds it; steps of help for those that do not hold there.
+  Steps weak_at_rest(TriedPlan& found, Tally& tally) const {
     if (found.plan.lines.empty()) return {};  // all were refused
-    if (!o_.prove) return blow_once(found, may_end, tally);
-    if (!o_.statics) return run_forward(found, may_end, tally);
-    const bool brief = physics::solves_contact(o_.run.integrator);  // else motion is slower
-    const StaticTrial trial = try_statics(found.outcome.cloth, world_, o_, brief, meter_, search_work_,
-                                          [&] { return go_on(0, tally); });
+    const StaticTrial trial =
+        try_statics(found.outcome.cloth, world_, o_, meter_, search_work_, [&] { return go_on(0, tally); });
     tally.drift = trial.drift;
     tally.interrupted = tally.interrupted || trial.stopped;
     found.outcome.kept = trial.kept;
-    found.outcome.kept_gust.assign(trial.kept.size(), 1);  // that is for motion to say
-    const Steps weak = weak_lines(found);
-    found.outcome.kept.assign(weak.size(), NAN);  // until motion says it, whatever ends the search
-    found.outcome.kept_gust.assign(weak.size(), NAN);
-    if (tally.interrupted || (may_end && any(weak))) return weak;
-    return run_forward(found, may_end, tally);
+    return weak_lines(found);
   }
 
-  /// As run_forward(), of one gust by long steps; what fails gets two steps of help at once.
-  Steps blow_once(TriedPlan& found, bool may_end, Tally& tally) const {
-    Steps weak;
-    const auto in_vain = [&](const std::vector<double>& kept, bool) {
-      found.outcome.kept = kept;
-      found.outcome.kept_gust.assign(kept.size(), 1);  // that is for the gust to say
-      weak = weak_lines(found);
-      return may_end && any(weak);
-    };
-    const KeepTrial trial = try_one_gust(found.outcome.cloth, world_, o_, meter_, in_vain,
-                                         [&](double share) { return go_on(share, tally); });
-    found.outcome.kept = trial.kept;
-    found.outcome.kept_gust = trial.kept_gust;
-    tally.drift = trial.drift;
-    tally.interrupted = tally.interrupted || trial.stopped;
-    if (!may_end || !any(weak)) weak = weak_lines(found);
-    for (char& steps : weak) steps = steps > 0 ? 2 : 0;
-    return weak;
-  }
-
-  /// For those that may be helped and do not hold.
-  Steps weak_lines(const TriedPlan& found) const {
-    const std::vector<HelpedLine>& lines = found.plan.lines;
-    const KeepOutcome& outcome = found.outcome;
-    Steps weak(lines.size(), 0);
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-      if (!can_be_helped(lines[i])) continue;
-      weak[i] = std::max(steps_more(std::abs(outcome.kept[i] - 1), may_lose(outcome, o_.kept)),
-                         steps_more(std::abs(outcome.kept_gust[i] - 1), may_lose_in_gusts(outcome, o_.kept)));
-    }
-    return weak;
-  }
-
-  /// Where a trial has failed anyway, lines that hardly hold are helped with those that do not.
-  void add_near_the_edge(const TriedPlan& found, Steps& weak) const {
-    const double near = o_.prove ? near_the_edge : near_in_one_gust;
-    for (std::size_t i = 0; i < weak.size(); ++i) {
-      const double off = std::abs(found.outcome.kept_gust[i] - 1);
-      if (weak[i] == 0 && can_be_helped(found.plan.lines[i]) &&
-          off > near * may_lose_in_gusts(found.outcome, o_.kept))
-        weak[i] = 1;
-    }
-  }
-
-  /// Notes what the lines keep. Returns the steps of help that those need that may be helped and do not hold;
-  /// with `may_end` the run ends early if one is far from it.
-  Steps run_forward(TriedPlan& found, bool may_end, Tally& tally) const {
+  /// Notes what the lines keep in motion, without gusts and after them; steps of help for those that gave way
+  /// without.
+  Steps weak_in_motion(TriedPlan& found, Tally& tally) const {
+    if (found.plan.lines.empty()) return {};
     const bool stable = found.outcome.shape.certificate.stable();
     tally.runs += stable ? 1 : o_.pushes;
-    const std::vector<HelpedLine>& lines = found.plan.lines;
-    Steps weak(lines.size(), 0);
-    const auto in_vain = [&](const std::vector<double>& kept, bool at_end) {
-      const double most = at_end ? may_lose_in_gusts(found.outcome, o_.kept) : 2 * (1 - o_.kept);
-      for (std::size_t i = 0; may_end && i < lines.size(); ++i)
-        weak[i] = can_be_helped(lines[i]) ? steps_more(std::abs(kept[i] - 1), most) : char(0);
-      return any(weak);
+    Steps early(found.plan.lines.size(), 0);
+    const auto in_vain = [&](const std::vector<double>& kept) {
+      for (std::size_t i = 0; i < early.size(); ++i)
+        early[i] = can_be_helped(found.plan.lines[i]) ? steps_more(std::abs(kept[i] - 1), 2 * (1 - o_.kept))
+                                                      : char(0);
+      return any(early);
     };
-    const double before = o_.statics ? share_of_statics : 0;
-    KeepTrial trial = try_shape(found.outcome.cloth, stable, world_, o_, meter_, in_vain,
-                                [&](double share) { return go_on(before + (1 - before) * share, tally); });
+    KeepTrial trial = try_shape(found.outcome.cloth, stable, world_, o_, meter_, in_vain, [&](double share) {
+      return go_on(share_of_search + (1 - share_of_search) * share, tally);
+    });
     found.outcome.kept = std::move(trial.kept);
     found.outcome.kept_gust = std::move(trial.kept_gust);
     tally.drift = trial.drift;
     tally.interrupted = tally.interrupted || trial.stopped;
-    return any(weak) ? weak : weak_lines(found);
+    return any(early) ? early : weak_lines(found);
   }
 
-  std::optional<TriedPlan> try_forward(const KeepPlan& plan, Tally& tally) const {
+  /// Of those that may be helped and do not hold without gusts.
+  Steps weak_lines(const TriedPlan& found) const {
+    Steps weak(found.plan.lines.size(), 0);
+    for (std::size_t i = 0; i < weak.size(); ++i)
+      if (can_be_helped(found.plan.lines[i]))
+        weak[i] = steps_more(std::abs(found.outcome.kept[i] - 1), may_lose(found.outcome, o_.kept));
+    return weak;
+  }
+
+  /// Where stiffness alone does not hold all lines: all help for all of them, then lower heights.
+  TriedPlan help_what_is_left(TriedPlan found, Tally& tally) const {
+    found = help_all(std::move(found), tally);
+    const bool has_base = geometry::find_map(mesh_, geometry::attribute::rest_position).has_value();
+    if (tally.interrupted || o_.height_trials == 0 || !has_base || failing(found) == 0) return found;
+    return help_by_height(std::move(found), tally);
+  }
+
+  /// Gives all help to all lines, since a neighbour that holds by itself can let a line go. The help stays if
+  /// more lines hold.
+  TriedPlan help_all(TriedPlan least, Tally& tally) const {
+    const auto is_helped = [&](const HelpedLine& line) { return !can_be_helped(line); };
+    if (std::all_of(least.plan.lines.begin(), least.plan.lines.end(), is_helped)) return least;
+    const double drift = tally.drift;
+    KeepPlan plan = least.plan;
+    for (HelpedLine& line : plan.lines) line.step = help_steps(o_);
+    tally.helped = int(plan.lines.size());
+    std::optional<TriedPlan> most = try_at_rest(plan, tally);
+    if (!most) return least;
+    if (tally.interrupted || failing(*most) < failing(least)) return std::move(*most);
+    tally.drift = drift;
+    return least;
+  }
+
+  /// Bisects the heights of all lines at once that fail at rest.
+  TriedPlan help_by_height(TriedPlan found, Tally& tally) const {
+    const LineFlags good = lines_at_rest(found, o_.kept);
+    std::vector<std::size_t> lines;
+    for (std::size_t i = 0; i < good.size(); ++i)
+      if (!good[i]) lines.push_back(i);
+    tally.helped = int(lines.size());
+    const double drift = tally.drift;
+    KeepPlan plan = found.plan;
+    std::vector<double> low(lines.size(), 0), high(lines.size(), 1);  // low: the greatest that held
+    for (int trial = 0; trial < o_.height_trials && !tally.interrupted; ++trial) {
+      for (std::size_t i = 0; i < lines.size(); ++i) plan.lines[lines[i]].height = (low[i] + high[i]) / 2;
+      const std::optional<TriedPlan> tried = try_at_rest(plan, tally);
+      if (!tried) return found;
+      const LineFlags now = lines_at_rest(*tried, o_.kept);
+      for (std::size_t i = 0; i < lines.size(); ++i)
+        (now[lines[i]] ? low[i] : high[i]) = plan.lines[lines[i]].height;
+    }
+    if (tally.interrupted) return found;
+    if (std::all_of(low.begin(), low.end(), [](double height) { return height == 0; })) {
+      tally.drift = drift;  // nothing lower holds: what was found stands
+      return found;
+    }
+    for (std::size_t i = 0; i < lines.size(); ++i) plan.lines[lines[i]].height = low[i] > 0 ? low[i] : 1;
+    return try_at_rest(plan, tally).value_or(std::move(found));
+  }
+
+  std::optional<TriedPlan> try_at_rest(const KeepPlan& plan, Tally& tally) const {
     std::optional<TriedPlan> found = try_solve(plan, tally);
-    if (found) try_out(*found, false, tally);
+    if (found) weak_at_rest(*found, tally);
     return found;
   }
 
@@ -289,7 +238,7 @@ class Keeper {
   }
 
   std::size_t failing(const TriedPlan& found) const {
-    const LineFlags good = good_lines(found, o_.kept);
+    const LineFlags good = lines_at_rest(found, o_.kept);
     return std::size_t(std::count(good.begin(), good.end(), 0));
   }
 
@@ -316,7 +265,6 @@ KeepReport report_of(TriedPlan& found, const KeepOptions& o, LineMeter& meter,
   report.turned = found.outcome.shape.turned;
   report.trials = tally.trials;
   report.runs = tally.runs;
-  report.proved = o.prove;
   report.drift = tally.drift;
   report.interrupted = tally.interrupted;
   return report;
@@ -349,13 +297,7 @@ KeepReport keep_lines(geometry::Mesh& mesh, physics::Cloth& cloth, const physics
 
   const Keeper keeper(mesh, start, world, o, meter, go_on);
   Tally tally;
-  TriedPlan found = keeper.help_by_stiffness({helped_lines(mesh, start.particles, meter, o)}, tally);
-  if (!tally.interrupted) found = keeper.help_all(std::move(found), tally);
-  if (!tally.interrupted) keeper.try_named_gusts(found, tally);
-  if (!tally.interrupted && o.height_trials > 0 &&
-      geometry::find_map(mesh, geometry::attribute::rest_position))
-    found = keeper.help_by_height(std::move(found), tally);
-  if (!tally.interrupted) keeper.try_named_gusts(found, tally);
+  TriedPlan found = keeper.help({helped_lines(mesh, start.particles, meter, o)}, tally);
   if (!tally.interrupted) keeper.count_negative_eigenvalues(found);
 
   scatter(found.outcome.cloth.particles, mesh);

@@ -22,11 +22,8 @@ constexpr double first_part = 0.2;  // of the first run, before it is asked whet
 constexpr int look_steps = 100;     // between two moments that are looked at, however often a run is observed
 // At what is on its way elsewhere, when the push has calmed [s].
 constexpr double first_look = 0.5, look = 0.1;
-constexpr double calm_dt = 1.0 / 30;  // of implicit steps, where nothing blows [s]
-// Of what is tried in one gust: steps before and in it [s], and over the options' its strength, which was
-// chosen on three garments, and that of the push, much of which such steps damp out at once [-].
-constexpr double first_calm_dt = 1.0 / 15, long_dt = 1.0 / 30, gust_of_long_steps = 1.2,
-                 push_of_long_steps = 2;
+constexpr double calm_dt = 1.0 / 30;   // of implicit steps, where nothing blows [s]
+constexpr double gust_of_euler = 1.6;  // such steps take so much out of a swing that gusts blow stronger
 constexpr double least_share = 0.005;  // of the mean edge: what is lower is not told from the mesh
 constexpr double never = std::numeric_limits<double>::infinity();
 
@@ -150,9 +147,9 @@ struct Part {
 };
 
 /// What goes on from a run: gusts to both sides along two level axes, and calm.
-std::vector<Part> gusts_and_calm(const KeepOptions& o, const Vec3& gust, double from, double stronger) {
+std::vector<Part> gusts_and_calm(const KeepOptions& o, const Vec3& gust, double from) {
   if (!(o.gust > 0)) return {};
-  const double factor = o.run.integrator == physics::Integrator::implicit ? stronger : 1;
+  const double factor = o.run.integrator == physics::Integrator::implicit ? gust_of_euler : 1;
   const Vec3 a = factor * gust, b = factor * across(gust, o.run.gravity);
   std::vector<Part> parts;
   for (const Vec3& side : {a, Vec3(-a), b, Vec3(-b)})
@@ -221,11 +218,11 @@ struct Setting {
 
 KeepTrial try_shape(const physics::Cloth& start, bool stable, const physics::World& world,
                     const KeepOptions& o, LineMeter& meter, const InVain& in_vain,
-                    const std::function<bool(double)>& go_on, double stronger) {
+                    const std::function<bool(double)>& go_on) {
   using physics::Outcome;
   const int runs = stable ? 1 : o.pushes;
   const double branch = first_part * o.seconds;
-  const std::vector<Part> gusts = gusts_and_calm(o, gust_of(o, start.particles.x), branch, stronger);
+  const std::vector<Part> gusts = gusts_and_calm(o, gust_of(o, start.particles.x), branch);
   const double in_gusts = gusts.empty() ? 0 : gusts.back().until - branch;
   const Setting setting{world, o, go_on, meter, meter.heights(start.particles), runs * o.seconds + in_gusts};
   const std::vector<double> unknown(setting.drawn.size(), NAN);
@@ -238,13 +235,12 @@ KeepTrial try_shape(const physics::Cloth& start, bool stable, const physics::Wor
     push_off(run.cloth, o.push, std::uint64_t(number));
     Outcome end = setting.on_to({branch, o.run.gravity, calm_dt}, run, trial.kept);
     if (end != Outcome::finished) return lost(end);
-    if (const std::vector<double> early = setting.shares(run.cloth); in_vain && in_vain(early, false))
+    if (const std::vector<double> early = setting.shares(run.cloth); in_vain && in_vain(early))
       return {early, unknown};
     if (number == 1 && !gusts.empty()) {
       Run blown = run;
       end = setting.through(gusts, blown, trial.kept_gust);
       if (end != Outcome::finished) return lost(end);
-      if (in_vain && in_vain(trial.kept_gust, true)) return {unknown, trial.kept_gust};
       run.before += in_gusts;
     }
     end = setting.on_to({o.seconds, o.run.gravity, calm_dt}, run, trial.kept);
@@ -254,36 +250,6 @@ KeepTrial try_shape(const physics::Cloth& start, bool stable, const physics::Wor
   }
   if (gusts.empty()) trial.kept_gust = trial.kept;
   return trial;
-}
-
-KeepTrial try_one_gust(const physics::Cloth& start, const physics::World& world, const KeepOptions& options,
-                       LineMeter& meter, const InVain& in_vain, const std::function<bool(double)>& go_on) {
-  using physics::Outcome;
-  KeepOptions o = options;
-  o.run.integrator = physics::Integrator::implicit;
-  o.run.dt.reset();
-  const double calm = first_part * o.seconds, gust = calm + o.gust_seconds, all = gust + o.calm_seconds;
-  const bool blown = o.gust > 0;
-  const Setting setting{world, o, go_on, meter, meter.heights(start.particles), blown ? all : calm};
-  const std::vector<double> unknown(setting.drawn.size(), NAN);
-  KeepTrial trial{unknown, unknown};
-  const auto ended = [&](Outcome end) {
-    trial.stopped = end == Outcome::stopped_by_observer;
-    return trial;
-  };
-  Run run{start, {}, 0, never};
-  push_off(run.cloth, push_of_long_steps * o.push, 1);
-  Outcome end = setting.through({{calm, o.run.gravity, first_calm_dt}}, run, trial.kept);
-  trial.drift = farthest_apart(run.cloth.particles.x, start.particles.x);
-  if (end != Outcome::finished || (in_vain && in_vain(trial.kept, false))) return ended(end);
-  if (!blown) {
-    trial.kept_gust = trial.kept;
-    return trial;
-  }
-  const Vec3 side = gust_of_long_steps * gust_of(o, start.particles.x);
-  end = setting.through({{gust, o.run.gravity + side, long_dt}, {all, o.run.gravity, calm_dt}}, run,
-                        trial.kept_gust);
-  return ended(end);
 }
 
 }  // namespace furrow::bridge

@@ -52,18 +52,14 @@ struct KeepTrial {
   double drift = 0;      ///< of any particle in the runs without gusts [m]
   bool stopped = false;  ///< by go_on
 };
-/// Asked with what lines keep: on the way (a fifth of the first run), or at the end of the gusts. true: the
-/// trial ends.
-using InVain = std::function<bool(const std::vector<double>& shares, bool at_end)>;
-
-/// Steps of backward Euler take so much out of a swing that their gusts blow stronger, by this.
-constexpr double gust_of_euler = 1.6;
+/// Asked with what lines keep after a fifth of the first run. true: the trial ends.
+using InVain = std::function<bool(const std::vector<double>& shares)>;
 
 /// Runs a cloth forward from rest for a fifth of the options' seconds; from there through gusts to both sides
 /// along two level axes, and a calm; and from there, too, without gusts to the end. The cloth is not changed.
 /// stable: what its certificate says; if not, there are options.pushes runs without gusts, and of `kept` the
 /// worst counts, at any time from 0.5 s on. Implicit steps are those of backward Euler: their gusts are
-/// `stronger` times as strong, and where nothing blows they go on with factors of steps before, 1/30 s long
+/// 1.6 times as strong, and where nothing blows they go on with factors of steps before, 1/30 s long
 /// unless the options name a step. What a trial that ends early does not know is NaN. Both functions
 /// may be empty.
 ///
@@ -71,13 +67,6 @@ constexpr double gust_of_euler = 1.6;
 /// its tip, and a stable one may lie in a shallow hollow.
 KeepTrial try_shape(const physics::Cloth& start, bool stable, const physics::World& world,
                     const KeepOptions& options, LineMeter& meter, const InVain& in_vain,
-                    const std::function<bool(double)>& go_on, double stronger = gust_of_euler);
-
-/// A trial's first part, from twice the options' push, one gust of 1.2 times their strength, and the calm
-/// after it, by backward Euler, whatever the options name. Steps are twice as long as in try_shape(), but for
-/// that calm. What it lets pass may still be lost there. in_vain: asked after the first part. Cost: some 90
-/// steps.
-KeepTrial try_one_gust(const physics::Cloth& start, const physics::World& world, const KeepOptions& options,
-                       LineMeter& meter, const InVain& in_vain, const std::function<bool(double)>& go_on);
+                    const std::function<bool(double)>& go_on);
 
 }  // namespace furrow::bridge

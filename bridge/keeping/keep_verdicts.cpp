@@ -14,18 +14,7 @@ namespace {
 constexpr double share_of_mode = 0.1;  // of an unstable motion's energy that makes it a line's
 constexpr double out_of_balance = 1e-6;
 // Of what a line may lose or win: where the shape is not stable, and after gusts.
-constexpr double reserve = 0.4, reserve_in_gusts = 0.5;
-
-/// How far a line is off after gusts no stronger than asked for [-]; NaN: they were not tried.
-double off_in_named_gusts(const KeepOutcome& outcome, std::size_t line) {
-  return outcome.kept_named.empty() ? NAN : std::abs(outcome.kept_named[line] - 1);
-}
-
-bool holds(const KeepOutcome& outcome, std::size_t line, double least) {
-  return std::abs(outcome.kept[line] - 1) <= may_lose(outcome, least) &&
-         std::abs(outcome.kept_gust[line] - 1) <= may_lose_in_gusts(outcome, least) &&
-         !(off_in_named_gusts(outcome, line) > 1 - least);
-}
+constexpr double reserve = 0.4;
 
 }  // namespace
 
@@ -56,22 +45,23 @@ double may_lose(const KeepOutcome& outcome, double least) {
   return (outcome.shape.certificate.stable() ? 1 : reserve) * (1 - least);
 }
 
-double may_lose_in_gusts(const KeepOutcome& outcome, double least) {
-  return std::min(may_lose(outcome, least), reserve_in_gusts * (1 - least));
-}
+double may_lose_in_gusts(double least) { return reserve * (1 - least); }
 
-LineFlags good_lines(const TriedPlan& found, double least) {
+LineFlags lines_at_rest(const TriedPlan& found, double least) {
   const LineFlags loose = loose_lines(found);
   LineFlags good(loose.size(), 0);
   if (hangs_wrong(found.outcome)) return good;
   for (std::size_t i = 0; i < good.size(); ++i)
-    good[i] = holds(found.outcome, i, least) && !is_bound(found.plan.lines[i], found.outcome) && !loose[i];
+    good[i] = std::abs(found.outcome.kept[i] - 1) <= may_lose(found.outcome, least) &&
+              !is_bound(found.plan.lines[i], found.outcome) && !loose[i];
   return good;
 }
 
-bool may_be_judged(const TriedPlan& found, std::size_t line) {
-  return !hangs_wrong(found.outcome) && !is_bound(found.plan.lines[line], found.outcome) &&
-         !loose_lines(found)[line];
+LineFlags good_lines(const TriedPlan& found, double least) {
+  LineFlags good = lines_at_rest(found, least);
+  for (std::size_t i = 0; i < good.size(); ++i)
+    good[i] = good[i] && std::abs(found.outcome.kept_gust[i] - 1) <= may_lose_in_gusts(least);
+  return good;
 }
 
 namespace {
@@ -89,18 +79,10 @@ double farthest_off(const KeepOutcome& outcome, std::size_t line) {
   return calm > gusts ? calm : gusts;  // not a number: that of the gusts
 }
 
-/// Not held for sure: it kept its height here, and nothing but chance speaks against it.
-bool nearly_held(const TriedPlan& found, std::size_t line, double least) {
-  return may_be_judged(found, line) && std::isfinite(found.outcome.kept[line]) &&
-         farthest_off(found.outcome, line) <= 1 - least &&
-         !(off_in_named_gusts(found.outcome, line) > 1 - least);
-}
-
-/// It kept its height, and after gusts of the strength that was asked for, but not after stronger ones.
-bool stands_named_gusts(const TriedPlan& found, std::size_t line, double least) {
-  const KeepOutcome& outcome = found.outcome;
-  return may_be_judged(found, line) && std::abs(outcome.kept[line] - 1) <= 1 - least &&
-         off_in_named_gusts(outcome, line) <= 1 - least;
+/// Whether nothing but its trials speaks against a line, and it kept its height where nothing blows.
+bool stands(const TriedPlan& found, std::size_t line, double least) {
+  return !hangs_wrong(found.outcome) && !is_bound(found.plan.lines[line], found.outcome) &&
+         !loose_lines(found)[line] && std::abs(found.outcome.kept[line] - 1) <= 1 - least;
 }
 
 /// "at 81 % of its height"; nothing is left to measure where a share is not finite.
@@ -116,16 +98,14 @@ std::string why_not(bool interrupted, const TriedPlan& found, std::size_t line, 
     return "the bounds on strain and angle leave no balance";
   if (loose_lines(found)[line])
     return "the fold can give way without effort: the cloth bends too easily for it";
-  if (nearly_held(found, line, o.kept))
-    return "it came within " + share_text(farthest_off(found.outcome, line)) +
-           " of its height in this trial, but another may end farther off; a line is held for sure within " +
-           share_text(may_lose(found.outcome, o.kept)) + ", and after gusts within " +
-           share_text(may_lose_in_gusts(found.outcome, o.kept));
-  if (stands_named_gusts(found, line, o.kept))
-    return "it stood gusts of the strength that was asked for, but stronger ones, which make up for what the "
-           "steps damp, left it " +
-           left_at(found.outcome.kept_gust[line]);
-  return "the fold turns into another shape";
+  if (!stands(found, line, o.kept)) return "the fold turns into another shape";
+  if (!(farthest_off(found.outcome, line) <= 1 - o.kept))
+    return "it stands where nothing blows, but gusts left it " + left_at(found.outcome.kept_gust[line]) +
+           "; more press on the line, a stiffer fabric, or a wider fold may hold it";
+  return "it came within " + share_text(farthest_off(found.outcome, line)) +
+         " of its height in this trial, but another may end farther off; a line is held for sure within " +
+         share_text(may_lose(found.outcome, o.kept)) + ", and after gusts within " +
+         share_text(may_lose_in_gusts(o.kept));
 }
 
 /// What a line is balanced at [m]: one that lies across another which the plan lowers is lowered with it.
@@ -147,10 +127,6 @@ Verdict verdict_of(const HelpedLine& line, const KeepOptions& o) {
 
 }  // namespace
 
-bool may_hold(const TriedPlan& found, std::size_t line, double least) {
-  return nearly_held(found, line, least) || stands_named_gusts(found, line, least);
-}
-
 std::vector<KeptLine> verdicts(const TriedPlan& found, const std::vector<double>& heights,
                                const KeepOptions& o, bool interrupted) {
   const LineFlags good = good_lines(found, o.kept);
@@ -164,8 +140,7 @@ std::vector<KeptLine> verdicts(const TriedPlan& found, const std::vector<double>
     v.height = balanced_height(heights[i], line, found.plan);
     v.lowered = v.height / asked_height(line.id, line.drawn, o);
     v.kept = found.outcome.kept[i];
-    const bool named = !found.outcome.kept_named.empty() && !nearly_held(found, i, o.kept);
-    v.kept_gust = named ? found.outcome.kept_named[i] : found.outcome.kept_gust[i];
+    v.kept_gust = found.outcome.kept_gust[i];
     const bool as_asked = v.lowered >= o.kept;
     if (good[i]) {
       v.verdict = as_asked ? verdict_of(line, o) : Verdict::lowered;
@@ -173,7 +148,7 @@ std::vector<KeptLine> verdicts(const TriedPlan& found, const std::vector<double>
     }
     v.reason = why_not(interrupted, found, i, o);
     if (interrupted) continue;
-    if (as_asked && may_hold(found, i, o.kept)) v.verdict = Verdict::may_hold;
+    if (stands(found, i, o.kept)) v.verdict = Verdict::may_hold;
     if (!as_asked) v.reason = share_text(v.lowered) + " of the height asked is left, and " + v.reason;
   }
   return kept;

@@ -21,7 +21,6 @@ struct KeepOutcome {
   KeptShape shape;                      ///< of that
   double rest_press;                    ///< factor on the hinges outside of all patches [-]
   std::vector<double> kept, kept_gust;  ///< of each line, shares of its height [-]; NaN: not run
-  std::vector<double> kept_named = {};  ///< after gusts no stronger than asked for; empty: not run
 };
 struct TriedPlan {
   KeepPlan plan;
@@ -41,14 +40,13 @@ bool is_bound(const HelpedLine& line, const KeepOutcome& outcome);
 /// run is a sample, and the next one may be worse.
 double may_lose(const KeepOutcome& outcome, double least);
 /// Where a gust leaves a line is a sample, too, whether the shape is stable or not.
-double may_lose_in_gusts(const KeepOutcome& outcome, double least);
+double may_lose_in_gusts(double least);
 
-/// Lines that hold, as far as is known; least: share of its height that a line must keep [-].
+/// Lines that keep their height where nothing blows, as far as is known; least: share of its height that a
+/// line must keep [-].
+LineFlags lines_at_rest(const TriedPlan& found, double least);
+/// Lines that hold: gusts leave them their height, too.
 LineFlags good_lines(const TriedPlan& found, double least);
-/// Whether nothing but its trials speaks against a line.
-bool may_be_judged(const TriedPlan& found, std::size_t line);
-/// Whether a line kept its height, if only in gusts no stronger than asked for.
-bool may_hold(const TriedPlan& found, std::size_t line, double least);
 
 /// What is told of each line that was tried, with reasons. heights: of each line in the outcome's cloth [m];
 /// interrupted: what is not known is told so.

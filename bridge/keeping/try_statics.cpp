@@ -11,16 +11,15 @@ namespace {
 
 constexpr double longest_move = 0.005;  // m: a search shall not step over what holds a fold
 constexpr int most_iterations = 60;     // what moves on then is measured where it is
-constexpr int brief_iterations = 14;    // of a search that motion follows: it is left to that
 
-physics::SettleOptions options_of(const KeepOptions& o, bool brief, physics::StiffnessWork& work) {
+physics::SettleOptions options_of(const KeepOptions& o, physics::StiffnessWork& work) {
   physics::SettleOptions settle;
   settle.gravity = o.run.gravity;
   settle.friction = o.run.friction;
   settle.gap = o.run.contact_gap;
   settle.threads = o.run.threads;
   settle.longest_move = longest_move;
-  settle.max_iterations = brief ? brief_iterations : most_iterations;
+  settle.max_iterations = most_iterations;
   settle.work = &work;
   return settle;
 }
@@ -28,21 +27,19 @@ physics::SettleOptions options_of(const KeepOptions& o, bool brief, physics::Sti
 }  // namespace
 
 StaticTrial try_statics(const physics::Cloth& start, const physics::World& world, const KeepOptions& o,
-                        bool brief, LineMeter& meter, physics::StiffnessWork& work,
-                        const std::function<bool()>& go_on) {
+                        LineMeter& meter, physics::StiffnessWork& work, const std::function<bool()>& go_on) {
   const std::optional<physics::PosedCollider> standing = standing_body(world);
   const std::vector<double> drawn = meter.heights(start.particles);
   StaticTrial trial{std::vector<double>(drawn.size(), NAN)};
   physics::Cloth cloth = start;
   push_off(cloth, o.push, 1);
   const physics::SettleReport rest =
-      physics::settle(cloth, standing ? &*standing : nullptr, options_of(o, brief, work),
+      physics::settle(cloth, standing ? &*standing : nullptr, options_of(o, work),
                       [&](const auto&) { return !go_on || go_on(); });
   trial.stopped = rest.stopped;
   if (trial.stopped) return trial;
   trial.kept = shares_of_heights(meter.heights(cloth.particles), drawn);
   trial.drift = farthest_apart(cloth.particles.x, start.particles.x);
-  if (brief && !rest.converged) trial.kept.assign(drawn.size(), 1);
   return trial;
 }
 

@@ -13,11 +13,9 @@ struct StaticTrial {
 
 /// As try_shape()'s calm, with a search for rest (physics/rest/settle.h) in place of motion, from the push
 /// on. It finds in a fraction of the time what motion would lose, too; a line that stays holds at rest, and
-/// no more is known. brief: motion follows; a search that takes longer than its calm part would is given up,
-/// and `kept` is 1 then. work: shared with other trials. go_on: asked in each iteration; may be empty. Cost:
-/// 0.4 s at 3,000 vertices and up to 6 s at 11,000. Throws as settle().
+/// no more is known. work: shared with other trials. go_on: asked in each iteration; may be empty. Cost: 0.4
+/// s at 3,000 vertices and up to 6 s at 11,000. Throws as settle().
 StaticTrial try_statics(const physics::Cloth& start, const physics::World& world, const KeepOptions& options,
-                        bool brief, LineMeter& meter, physics::StiffnessWork& work,
-                        const std::function<bool()>& go_on);
+                        LineMeter& meter, physics::StiffnessWork& work, const std::function<bool()>& go_on);
 
 }  // namespace furrow::bridge

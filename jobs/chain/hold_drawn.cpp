@@ -8,6 +8,7 @@
 #include "bridge/arrays/gather.h"
 #include "bridge/arrays/store_rest_state.h"
 #include "bridge/keeping/hold_lines.h"
+#include "jobs/chain/room_for_lines.h"
 #include "jobs/cloth/lost_lines.h"
 #include "jobs/cloth/pins.h"
 #include "jobs/cloth/prepare_garment.h"
@@ -133,6 +134,9 @@ bool can_hold_lines(const io::SceneMaterial& material) {
 
 Draped hold_drawn(const io::MeshFile& drawn, const io::Scene& scene, const BodyCollider* body,
                   const Budget& budget, const Context& context) {
+  if (body && !body->made_for)
+    if (const auto cramped = lines_without_room(drawn, body->exact, scene.simulation.contact_gap))
+      context.listener.warn(*cramped);
   Holder holder(drawn, scene, body);
   double began = budget.used();
   Draped best = holder.rest(budget, (began + budget.seconds()) / 2, context), last = best;

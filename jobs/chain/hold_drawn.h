@@ -13,7 +13,8 @@ bool can_hold_lines(const io::SceneMaterial& material);
 /// or above 125 %, its press rises a step, and the garment comes to rest anew from its drawn shape, as long
 /// as the budget has time for that; of all ends the best is returned. Where it would take more than half of
 /// the budget to balance what is drawn, that is warned of, and the lines fall as they will. Its file notes
-/// each line's press. body: null: it hangs from its pins. Throws as drape_garment() and bridge::hold_lines()
+/// each line's press. Lines that the body leaves no room for are warned of first (room_for_lines.h). body:
+/// null: it hangs from its pins. Throws as drape_garment() and bridge::hold_lines()
 /// do.
 Draped hold_drawn(const io::MeshFile& drawn, const io::Scene& scene, const BodyCollider* body,
                   const Budget& budget, const Context& context);

@@ -115,8 +115,8 @@ std::string why_unsettled(const SceneCloth& garment, const io::Scene& scene) {
 
 /// What drawn_by() gives; on a body that does not hold the garment well as it lies, once it has come to rest
 /// there, at the same gap.
-SceneCloth drawn_at_rest(const KeepJob& job, const io::Scene& scene, const Context& context,
-                         KeepReport& report) {
+SceneCloth drawn_at_rest(const KeepJob& job, const io::Scene& scene, const Budget& budget,
+                         const Context& context, KeepReport& report) {
   SceneCloth garment = drawn_by(scene, context);
   std::string why;
   if (job.settle && scene.body) {
@@ -125,7 +125,8 @@ SceneCloth drawn_at_rest(const KeepJob& job, const io::Scene& scene, const Conte
     context.listener.progress("looking whether the body holds it", 1);
   }
   if (why.empty()) return garment;
-  const std::optional<MemoryFiles> settled = settle_first(scene, garment.options.contact_gap, context);
+  const std::optional<MemoryFiles> settled =
+      settle_first(scene, garment.options.contact_gap, budget, context);
   stop_if_cancelled(context);
   if (!settled) return garment;
   report.settled = true;
@@ -228,7 +229,6 @@ bridge::KeepOptions options_of(const KeepJob& job, const io::Scene& scene, const
   options.line_presses = io::line_presses(record);
   options.line_heights = asked_heights(record);
   options.whole = job.whole;
-  options.prove = job.prove;
   if (!job.balance) options.largest_turn = 0;
   if (!job.help) options.presses.clear(), options.struts.clear(), options.height_trials = 0;
   return options;
@@ -291,7 +291,8 @@ std::vector<Warning> warnings_of(const KeepReport& report, const io::Scene& scen
   return warnings;
 }
 
-KeepReport keep_within(const KeepJob& job, Listener& listener) {
+KeepReport keep_within(const KeepJob& job, Budget& budget) {
+  Listener& listener = budget;
   const OpenScene open = open_scene(job, listener);
   const io::Scene& scene = open.scene;
   const Context context{open.frame, listener, &job.scene.memory};
@@ -301,7 +302,8 @@ KeepReport keep_within(const KeepJob& job, Listener& listener) {
       std::any_of(scene.lines.begin(), scene.lines.end(), [](const auto& l) { return l.time > 0; });
   if (!state && later && !(state = run_until_drawn(open, context))) return report;
   if (state) refuse_chain(state->file.mesh, job.state_path.string());
-  SceneCloth garment = state ? drawn_in(*state, scene, context) : drawn_at_rest(job, scene, context, report);
+  SceneCloth garment =
+      state ? drawn_in(*state, scene, context) : drawn_at_rest(job, scene, budget, context, report);
   const double time = state ? state->simulation.time : 0;
   stop_if_cancelled(context);
   report.ran = true;

@@ -46,7 +46,6 @@ struct KeepJob {
   bool balance = true;               ///< what hangs on a line of pins is first turned into balance
   bool settle = true;  ///< on a body: a garment that it does not hold as it lies comes to rest first
   bool help = true;    ///< press, struts or a lower height where the rest state alone does not hold
-  bool prove = true;   ///< runs in motion decide; false: one gust by long steps
   bool whole = false;  ///< what lies between the lines is pressed, too, where it could give way
   std::vector<std::string> more_outputs = {};  ///< files that the caller writes: none may replace another
   double budget = 300;  ///< processor time after which the last rest state is the end [s]; > 0

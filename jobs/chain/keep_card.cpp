@@ -14,9 +14,6 @@ std::vector<CardRow> card(KeepJob& job) {
        "and an acceleration to each of four sides for 0.4 s, and 2 s of calm [m/s^2]"},
       {"kept", lines, everyone, Share{[&job](double share) { job.kept = share; }},
        "share of its height with which a line holds (default 95%)"},
-      {"fast", lines, everyone, off(job.prove),
-       "one gust and longer steps: two to four times sooner, but a line that is called held may be lost in "
-       "others"},
       {"whole", lines, everyone, &job.whole,
        "press what lies between the lines, too, where it could give way"},
       {"budget", lines, everyone, &job.budget, endless,

@@ -117,8 +117,7 @@ Json to_json(const KeepReport& report) {
   for (const KeptLine& line : r.lines) lines.push_back(to_json(line, report.record));
   Json json{{"lines", lines}};
   json.update(to_json(r.rest, r.certificate));
-  json.update(
-      {{"drift", r.drift}, {"trials", r.trials}, {"runs", r.runs}, {"proof", r.proved ? "motion" : "gust"}});
+  json.update({{"drift", r.drift}, {"trials", r.trials}, {"runs", r.runs}});
   json["crossings"] = jobs::to_json(report.crossings);
   json["end"] = jobs::to_json(report.end);
   if (r.rest_press > 1)

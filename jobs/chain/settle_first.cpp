@@ -8,6 +8,7 @@
 #include "geometry/rest/stiffness.h"
 #include "geometry/stroke/project_onto_surface.h"
 #include "io/stroke/resolve_strokes.h"
+#include "jobs/chain/hold_drawn.h"
 #include "jobs/cloth/prepare_garment.h"
 #include "jobs/cloth/scene_cloth.h"
 #include "jobs/draw/line_round.h"
@@ -89,7 +90,8 @@ io::MeshFile made(const io::Scene& scene, const Context& context) {
 
 }  // namespace
 
-std::optional<MemoryFiles> settle_first(const io::Scene& scene, double gap, const Context& context) {
+std::optional<MemoryFiles> settle_first(const io::Scene& scene, double gap, const Budget& budget,
+                                        const Context& context) {
   SilentListener silent(context.listener);
   const Context quiet{context.frame, silent, context.memory};  // reading has warned before
   const io::MeshFile before = made(scene, quiet);
@@ -99,12 +101,15 @@ std::optional<MemoryFiles> settle_first(const io::Scene& scene, double gap, cons
   alone.output = {};
   const ProgressScope progress(context.listener, "settling");
   const BodyCollider body = load_body(*scene.body, quiet, tolerance_for(scene.simulation.contact_gap));
-  DrapeSettings settings;
-  settings.gap = gap;
-  const Draped draped = drape_garment(alone, &body, settings, false, quiet);
+  alone.simulation.contact_gap = gap;
+  const auto lines = io::find_wrinkle_record(before);
+  const bool holds = lines && !lines->lines.empty() && can_hold_lines(scene.material);
+  const Draped draped =
+      holds ? hold_drawn(before, alone, &body, budget, quiet) : drape_garment(alone, &body, {}, false, quiet);
   if (draped.end.falls() || !draped.end.finite || draped.report.stopped) return std::nullopt;
   io::MeshFile rests = before;
   for (const geometry::Vertex v : rests.mesh->vertices()) rests.mesh->point(v) = draped.file.mesh->point(v);
+  if (holds) io::set_wrinkle_record(rests, *io::find_wrinkle_record(draped.file));  // the lines' presses
   if (auto map = geometry::find_map(rests.mesh, geometry::attribute::rest_position))
     rests.mesh->remove_property_map(*map);  // lines are drawn from where it lies now
   MemoryFiles memory = context.memory ? *context.memory : MemoryFiles{};

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "io/scene/scene.h"
+#include "jobs/base/budget.h"
 #include "jobs/base/inputs.h"
 
 namespace furrow::jobs {
@@ -12,6 +13,7 @@ namespace furrow::jobs {
 /// rest state that it was made with, and the strokes of time 0, moved with the cloth below them. None:
 /// nothing carries the garment, or it was cancelled. Cost: that of a drape. Throws as drape_garment() and
 /// io::resolve_strokes() do.
-std::optional<MemoryFiles> settle_first(const io::Scene& scene, double gap, const Context& context);
+std::optional<MemoryFiles> settle_first(const io::Scene& scene, double gap, const Budget& budget,
+                                        const Context& context);
 
 }  // namespace furrow::jobs

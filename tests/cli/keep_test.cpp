@@ -55,19 +55,6 @@ TEST_CASE("keep: the state goes on with the lines as drawn, all rounds of time 0
   for (const json& line : after["lines"]) CHECK(line["kept"].get<double>() == Approx(1).margin(1e-6));
 }
 
-TEST_CASE("keep: --fast says that lines hold in one gust, and proves nothing") {
-  const ScratchDirectory scratch;
-  const std::string scene = write_hung_scene(scratch);
-  const Run told = run_furrow("keep --fast " + scene), run = run_furrow("keep --fast --json " + scene);
-  INFO(told.err);
-  REQUIRE(told.exit_code == 0);
-  CHECK(told.out.find("2 of 2 lines hold in one gust") != std::string::npos);
-  const json report = json::parse(run.out);
-  CHECK(report["proof"] == "gust");
-  CHECK(report["runs"] == 0);
-  for (const json& line : report["lines"]) CHECK(line["kept"].get<double>() == Approx(1).margin(0.05));
-}
-
 TEST_CASE("keep: a garment without a line is refused, as in the studio, and nothing is written") {
   const ScratchDirectory scratch;
   write_text(scratch / "sheet.obj", "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0.1 0.1 0\nf 1 2 4\nf 1 4 3\n");

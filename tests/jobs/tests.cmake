@@ -38,6 +38,7 @@ furrow_add_tests(jobs jobs LIBRARIES furrow::jobs cases SOURCES
   mesh/subdivide_test.cpp
   mesh/transfer_test.cpp
   draw/line_faults_test.cpp
+  chain/room_for_lines_test.cpp
   chain/wrinkle_test.cpp
   base/ends_test.cpp
   rest/drape_ends_test.cpp

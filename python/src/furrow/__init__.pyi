@@ -257,7 +257,6 @@ def keep(
     state: Optional[Path] = None,
     gust: Optional[float] = None,
     kept: Union[float, str, None] = None,
-    fast: Optional[bool] = None,
     whole: Optional[bool] = None,
     budget: Optional[float] = None,
     run: Optional[float] = None,

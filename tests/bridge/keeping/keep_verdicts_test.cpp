@@ -40,11 +40,11 @@ TEST_CASE("keep_verdicts: a line is told at the height that it lies at, whoever 
   CHECK(told[2].height == Approx(0.0098));
 }
 
-TEST_CASE("keep_verdicts: help names what holds, gusts allow half of what calm does") {
+TEST_CASE("keep_verdicts: help names what holds, gusts allow two fifths of what calm does") {
   Tried tried;
   tried.found.plan.lines[0].step = 1;
   tried.found.plan.lines[1].step = int(tried.options.presses.size()) + 1;
-  tried.found.outcome.kept_gust[2] = 0.97;  // 5 % may be lost, 2.5 % in gusts
+  tried.found.outcome.kept_gust[2] = 0.975;  // 5 % may be lost, 2 % in gusts
   const auto told = tried.told();
   CHECK(told[0].verdict == Verdict::pressed);
   CHECK(told[0].press == tried.options.presses.front());
@@ -69,34 +69,24 @@ TEST_CASE("keep_verdicts: what stands lower than asked is not held, whatever it 
   CHECK(told[2].lowered == 1);
   tried.found.outcome.kept_gust = {0.96, 0.96, 0.5};
   const auto nearly = tried.told();
-  CHECK(nearly[0].verdict == Verdict::cannot_hold);
+  CHECK(nearly[0].verdict == Verdict::may_hold);
   CHECK_THAT(nearly[0].reason, Catch::StartsWith("50 % of the height asked is left, and it came within 4 %"));
   CHECK(nearly[1].verdict == Verdict::may_hold);
-  CHECK(nearly[2].verdict == Verdict::cannot_hold);
+  CHECK(nearly[2].verdict == Verdict::may_hold);
+  CHECK_THAT(nearly[2].reason, Catch::Contains("gusts left it at 50 %"));
 }
 
-TEST_CASE("keep_verdicts: gusts as they were asked for decide, where stronger ones blew, too") {
+TEST_CASE("keep_verdicts: a line that gusts alone took may hold, one that calm took cannot") {
   Tried tried;
-  for (const double stronger : {0.5, -3.0, 0.98}) {
-    tried.found.outcome.kept_gust = {stronger, stronger, 1};
-    tried.found.outcome.kept_named = {0.99, 0.9, 0.9};
-    const auto told = tried.told();
-    CHECK(told[0].verdict == (stronger == 0.98 ? Verdict::held : Verdict::may_hold));
-    CHECK(told[1].verdict == Verdict::cannot_hold);
-    CHECK(told[1].kept_gust == 0.9);
-    CHECK(told[2].verdict == Verdict::cannot_hold);
-  }
-}
-
-TEST_CASE("keep_verdicts: a line that only stronger gusts took may hold, one that calm took cannot") {
-  Tried tried;
-  tried.found.outcome.kept_gust = {0.5, 0.5, 1};
+  tried.found.outcome.kept_gust = {0.5, NAN, 1};
   tried.found.outcome.kept[2] = 0.5;
-  CHECK(tried.told()[0].verdict == Verdict::cannot_hold);
-  tried.found.outcome.kept_named = {0.96, 0.9, 1};
   const auto told = tried.told();
   CHECK(told[0].verdict == Verdict::may_hold);
-  CHECK(told[1].verdict == Verdict::cannot_hold);
+  CHECK(told[0].kept_gust == 0.5);
+  CHECK(told[1].verdict == Verdict::may_hold);
+  CHECK_THAT(told[1].reason, Catch::Contains("no height to measure"));
   CHECK(told[2].verdict == Verdict::cannot_hold);
-  CHECK(bridge::verdicts(tried.found, tried.heights, tried.options, true)[0].reason == "interrupted");
+  const auto broken_off = bridge::verdicts(tried.found, tried.heights, tried.options, true);
+  CHECK(broken_off[0].reason == "interrupted");
+  CHECK(broken_off[0].verdict == Verdict::cannot_hold);
 }
