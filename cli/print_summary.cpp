@@ -15,6 +15,7 @@ namespace {
 using geometry::length_text;
 using Lines = std::vector<std::string>;
 
+constexpr std::size_t most_lines = 8;      // about a job; the rest is cut
 constexpr double most_off_by_steps = 0.2;  // of all energy that is lost, without a hint
 
 std::string number(double value) {
@@ -393,58 +394,58 @@ Lines strokes_lines(const Json& report) {
   return lines;
 }
 
-/// A measure of a cloth's quality beside its target: "0.2 % of at most 0.3 %".
-std::string measured_text(const Json& m) {
-  static const std::map<std::string, std::string> per_cents{
-      {"crest_ripple", ""}, {"sweep", ""}, {"fit", ""}, {"lateral", " of the width"}};
-  static const std::map<std::string, std::string> units{{"angle_defect", " rad/m^2"},
-                                                        {"vertex_ratio", " times as many"}};
-  const std::string name = text_of(m, "name");
-  const auto share = per_cents.find(name);
-  const auto unit = units.find(name);
-  const auto text = [&](double v) {
-    if (share != per_cents.end()) return per_cent(v);
-    return number(v) + (unit != units.end() ? "" : " degrees");
-  };
+/// How people read a measure of a cloth's quality. `each`: what follows each number; "%": it is a share.
+/// `end`: what follows the last one.
+struct MeasureWords {
+  std::string title, each = "", end = "";
+};
+
+/// A measure that has no words yet shows its own name and bare numbers.
+MeasureWords words_of_measure(const std::string& name) {
+  static const std::map<std::string, MeasureWords> known{
+      {"crest_ripple", {"crest ripples by", "%"}},
+      {"lateral", {"crest beside its stroke", "%", " of the width"}},
+      {"sweep", {"sections waver by", "%"}},
+      {"normals_deg", {"normals turn by", " degrees"}},
+      {"fit", {"section off its shape by", "%"}},
+      {"angle_defect", {"knobs", "", " rad/m^2"}},
+      {"min_angle_deg", {"smallest angle", " degrees"}},
+      {"hem_turn_deg", {"hem turns over 6 mm by", " degrees"}},
+      {"vertex_ratio", {"vertices", "", " times as many"}}};
+  const auto found = known.find(name);
+  return found == known.end() ? MeasureWords{name} : found->second;
+}
+
+/// A measure beside its target: "0.2 % of at most 0.3 %".
+std::string measured_text(const Json& m, const MeasureWords& of) {
   if (!std::isfinite(value_of(m, "value"))) return "not measured: " + text_of(m, "why");
+  const auto text = [&](double v) { return of.each == "%" ? per_cent(v) : number(v) + of.each; };
   std::string words = text(value_of(m, "value"));
   for (const auto& [key, bound] : {std::pair("at_most", " of at most "), {"at_least", " of at least "}})
     if (m.contains(key)) words += bound + text(value_of(m, key));
-  if (share != per_cents.end()) words += share->second;
-  if (unit != units.end()) words += unit->second;
+  words += of.end;
   if (!text_of(m, "line").empty()) words += " (" + text_of(m, "line") + ")";
   if (!text_of(m, "why").empty()) words += ": " + text_of(m, "why");
   return words;
 }
 
 Lines quality_lines(const Json& report) {
-  static const std::map<std::string, std::string> titles{
-      {"crest_ripple", "crest ripples by"}, {"lateral", "crest beside its stroke"},
-      {"sweep", "sections waver by"},       {"normals_deg", "normals turn by"},
-      {"fit", "section off its shape by"},  {"angle_defect", "knobs"},
-      {"min_angle_deg", "smallest angle"},  {"hem_turn_deg", "hem turns over 6 mm by"},
-      {"vertex_ratio", "vertices"}};
-  const Json& measures = list_of(report, "measures");
-  long long missed = 0;
-  for (const Json& m : measures) missed += !m.value("met", true);
   Lines lines;
   std::string unknown;  // what has one reason is told together
   std::string why;
-  for (const Json& m : measures) {
-    const auto title = titles.find(text_of(m, "name"));
-    const std::string begin = text_of(m, "id") + " " + (title == titles.end() ? "" : title->second) + ": ";
+  for (const Json& m : list_of(report, "measures")) {
     if (!std::isfinite(value_of(m, "value")) && (why.empty() || why == text_of(m, "why"))) {
       why = text_of(m, "why");
       unknown += (unknown.empty() ? "" : ", ") + text_of(m, "id");
       continue;
     }
-    lines.push_back(begin + measured_text(m) + (m.value("met", true) ? "" : "  MISSED"));
+    const MeasureWords words = words_of_measure(text_of(m, "name"));
+    lines.push_back(text_of(m, "id") + " " + words.title + ": " + measured_text(m, words) +
+                    (m.value("met", true) ? "" : "  MISSED"));
   }
   if (!unknown.empty()) lines.insert(lines.begin(), unknown + " not measured: " + why);
-  if (lines.size() == 9) {  // eight fit: two of the whole mesh on one line
-    lines[7] += "; " + lines[8];
-    lines.pop_back();
-  }
+  for (std::size_t i = most_lines; i < lines.size(); ++i) lines[most_lines - 1] += "; " + lines[i];
+  lines.resize(std::min(lines.size(), most_lines));
   return lines;
 }
 
@@ -644,8 +645,7 @@ Lines bake_lines(const Json& report) {
 }
 
 void print_summary(std::ostream& out, const Summary& summary) {
-  constexpr std::size_t most = 8;
-  const std::size_t n = summary.lines.size(), shown = n > most ? most - 1 : n;
+  const std::size_t n = summary.lines.size(), shown = n > most_lines ? most_lines - 1 : n;
   for (std::size_t i = 0; i < shown; ++i) out << summary.lines[i] << "\n";
   if (shown < n) out << "and " << n - shown << " lines more, with -v\n";
   std::string written;

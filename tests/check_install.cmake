@@ -25,6 +25,10 @@ must(${CMAKE_COMMAND} -G Ninja -S ${ROOT}/examples -B ${examples} -DCMAKE_PREFIX
 must(${CMAKE_COMMAND} --build ${examples} -j 2)
 must(${examples}/falling_spring)
 must(${examples}/own_force)
+must(${examples}/fold_a_sheet)
+if(NOT output MATCHES "'ridge' is 1[0-9.]+ mm high")
+  message(FATAL_ERROR "fold_a_sheet folds nothing: ${output}")
+endif()
 # A sheet, and a box below it that it falls on.
 file(WRITE ${examples}/box.obj "v -1 -2 -1\nv 1 -2 -1\nv 1 -0.1 -1\nv -1 -0.1 -1\nv -1 -2 1\nv 1 -2 1\nv 1 -0.1 1\nv -1 -0.1 1\n"
      "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n")

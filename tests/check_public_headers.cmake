@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The public headers (furrow_public_headers() in the folders' CMakeLists.txt): at most 51, each of which includes public
-# ones only and stands in docs/library.md; they are all that is installed. Those of bridge, io and jobs include neither CGAL nor
-# all of JSON, which cost seconds. With -DBINARY the build is installed into a prefix of its own, and each
-# header is compiled against that alone, as the first of a source.
+# ones only and stands in docs/library.md, which lists no other; they are all that is installed. Those of bridge, io and
+# jobs include neither CGAL nor all of JSON, which cost seconds. With -DBINARY the build is installed into a prefix of its
+# own, and each header is compiled against that alone, as the first of a source.
 cmake_minimum_required(VERSION 3.25)
 set(most 51)
 set(public furrow/version.h)
@@ -24,6 +24,13 @@ if(count GREATER most)
   list(APPEND faults "${count} public headers, more than ${most}")
 endif()
 file(READ ${ROOT}/docs/library.md manual)
+string(REGEX MATCHALL "\n\\| `[a-z_/]+[.]h` \\| " rows "${manual}")
+foreach(row IN LISTS rows)
+  string(REGEX REPLACE ".*`(.*)`.*" "\\1" header "${row}")
+  if(NOT header IN_LIST public)
+    list(APPEND faults "docs/library.md lists ${header}, which is not public")
+  endif()
+endforeach()
 foreach(header IN LISTS public)
   if(NOT manual MATCHES "\n\\| `${header}` \\| ")
     list(APPEND faults "docs/library.md does not list ${header}")

@@ -5,9 +5,10 @@
 
 #include "geometry/mesh/mesh_fwd.h"
 
-/// The half-edge structure that every operation of this folder works on. mesh_fwd.h has its names and those
-/// of its parts, the only ones for CGAL's types. Positions are in metres; faces are triangles and wind
-/// counter-clockwise seen from outside.
+/// The half-edge structure that every operation of this folder works on: a CGAL::Surface_mesh over
+/// Simple_cartesian<double>, filled by its add_vertex() and add_face(). mesh_fwd.h names it and its parts;
+/// use those names rather than CGAL's. Positions are in metres. Faces are triangles and wind
+/// counter-clockwise as seen from outside.
 namespace furrow::geometry {
 
 template <class Key, class T>

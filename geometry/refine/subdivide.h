@@ -12,10 +12,11 @@ namespace furrow::geometry {
 /// made (refine_rest.h); where none is set, the new shape is the rest shape. Struts are dropped. `steps` in
 /// [0, 6], and at most 50 million faces in the end; they grow as 4^steps. Removed elements are collected
 /// first. Throws std::invalid_argument for steps, ContentError for a face that is no triangle, a position
-/// that is not finite or a rest length below 0, the mesh untouched. \details A mid-point on an edge of a line
-/// is a vertex of the line, if both ends are. Halves of diagonals (attribute::diagonal) and the new edges
-/// parallel to one are diagonals. Source: C. Loop, "Smooth subdivision surfaces based on triangles" (1987);
-/// masks of CGAL's Subdivision_method_3.
+/// that is not finite or a rest length below 0, the mesh untouched.
+///
+/// \details A mid-point on an edge of a line is a vertex of the line, if both ends are. Halves of diagonals
+/// (attribute::diagonal) and the new edges parallel to one are diagonals. Source: C. Loop, "Smooth
+/// subdivision surfaces based on triangles" (1987); masks of CGAL's Subdivision_method_3.
 void loop_subdivide(Mesh& mesh, int steps);
 
 /// Cuts every triangle into four at the mid-points of its edges, `steps` times: the surface stays what it

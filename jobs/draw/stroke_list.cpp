@@ -18,12 +18,8 @@ Json to_json(const io::DrawnStroke& drawn) {
   Json item{{"name", drawn.stroke.name}, {"kind", io::kind_of(drawn)}, {"height", drawn.stroke.height}};
   if (const double length = io::drawn_length(drawn); std::isfinite(length))
     item["length"] = length, item["unit"] = io::unit_of(drawn);
-  if (drawn.stroke.width) {
-    item["width"] = *drawn.stroke.width;
-    item["sharpness"] = drawn.stroke.sharpness.value_or(0.5);
-  } else if (drawn.stroke.sharpness) {
-    item["sharpness"] = *drawn.stroke.sharpness;
-  }
+  if (drawn.stroke.width) item["width"] = *drawn.stroke.width;
+  if (drawn.stroke.sharpness) item["sharpness"] = *drawn.stroke.sharpness;
   if (!drawn.stroke.heights.empty()) item["heights"] = drawn.stroke.heights;
   if (!drawn.stroke.widths.empty()) item["widths"] = drawn.stroke.widths;
   if (drawn.stroke.press != 1) item["press"] = drawn.stroke.press;

@@ -18,12 +18,12 @@ struct AnchoredContactOptions {
   double stiffness = 1000;  ///< of that push beyond the soft layer [N/m]; > 0
 };
 
-/// Contact with a body as a potential, for callers that look for rest. A particle nearer than the gap is
-/// pushed along the body's gradient, by a force that grows with the square of the depth d in a soft layer (a
-/// third of the gap, 1 mm at most) and then linearly, so that stiffness does not jump where cloth comes to
-/// lie. Friction pulls it back to an anchor, linearly over a tenth of the layer and then with its limit,
-/// friction times push. Cost: one query of the collider a particle and call of look(), shared by the threads
-/// of the pool; the results do not depend on their number.
+/// Contact with a body as a potential, for searches of rest and of implicit steps. A particle nearer than the
+/// gap is pushed along the body's gradient, by a force that grows with the square of the depth d in a soft
+/// layer (a third of the gap, 1 mm at most) and then linearly, so that stiffness does not jump where cloth
+/// comes to lie. Friction pulls it back to an anchor, linearly over a tenth of the layer and then with its
+/// limit, friction times push. Cost: one query of the collider a particle and call of look(), shared by the
+/// threads of the pool; the results do not depend on their number.
 ///
 /// \details With anchors and limits held this is the derivative of an energy, and Newton's method may be used
 /// between calls of expect(), make_room(), stiffen() and move_anchors(). There a particle that pulls more

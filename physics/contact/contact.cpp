@@ -7,10 +7,11 @@
 #include <stdexcept>
 #include <string>
 
+#include "physics/contact/residual_force.h"
+
 namespace furrow::physics {
 namespace {
 
-constexpr double tolerance = 1e-5;     // m: a projection that leaves less depth is good enough
 constexpr double small_depth = 1e-4;   // m: below, the field is linear and one Newton step is exact
 constexpr double longest_push = 0.02;  // m
 constexpr int most_pieces = 1000;
@@ -63,7 +64,8 @@ double push_out(const Field& body, double target, SignedDistance& field, Vec3& x
     pushed += move;
     if (round == 2) break;
     const SignedDistance next = body.at(x);
-    if (next.value >= target - tolerance || !(next.gradient.norm() > 0)) break;
+    // A projection that leaves less depth is good enough.
+    if (next.value >= target - contact_tolerance || !(next.gradient.norm() > 0)) break;
     field = next;
   }
   return pushed;
@@ -127,7 +129,7 @@ std::optional<Vec3> BodyContact::resolve(const Collider& collider, ContactMemory
 
 int count_contacts(std::span<const Vec3> x, const Collider& collider, double gap) {
   return int(std::count_if(x.begin(), x.end(), [&](const Vec3& p) {
-    return p.allFinite() && collider.at(p).value <= gap + tolerance;
+    return p.allFinite() && collider.at(p).value <= gap + contact_tolerance;
   }));
 }
 

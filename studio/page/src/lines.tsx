@@ -26,8 +26,8 @@ export const mm = (metres: number) => `${Math.round(metres * 1000)} mm`;
 /** The width of a fold that names none, as the program chooses it. */
 export const ownWidth = (height: number) => 5 * Math.abs(height);
 
-/** The sharpness of a fold that names none. */
-const usualSharpness = 0.5;
+/** The sharpness of a fold that names none, as rule fold draws it. */
+const usualSharpness = 0;
 
 interface SliderProps {
   label: string;

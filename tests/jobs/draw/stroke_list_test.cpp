@@ -36,6 +36,10 @@ TEST_CASE("strokes: those of a file are those of the PLY that was wrinkled with 
   CHECK(rows.at(0).at("length") == 0.2);
   CHECK(rows.at(0).at("length_on_garment").get<double>() == Approx(0.2));
   CHECK(rows.at(0).at("parts") == 1);
+  list[0].stroke.width = 0.1;
+  CHECK_FALSE(jobs::to_json(list).at(0).contains("sharpness"));  // which one that is depends on the rule
+  list[0].stroke.sharpness = 0.3;
+  CHECK(jobs::to_json(list).at(0).at("sharpness") == 0.3);
   list[0].stroke.width = -1;
   CHECK_THROWS_AS(jobs::check_shapes(list), std::invalid_argument);
   CHECK(jobs::info(wrinkled).at("lines") == jobs::Json{"a"});
