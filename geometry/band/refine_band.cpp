@@ -11,6 +11,7 @@
 #include "geometry/band/relax_band.h"
 #include "geometry/band/split_longest.h"
 #include "geometry/mesh/preconditions.h"
+#include "geometry/mesh/property_names.h"
 #include "physics/base/cancel_scope.h"
 
 namespace furrow::geometry {
@@ -46,11 +47,8 @@ Point centre_of(const Mesh& mesh, Face f) {
   return CGAL::centroid(mesh.point(c[0]), mesh.point(c[1]), mesh.point(c[2]));
 }
 
-/// The faces of the band: those that hang together with the faces that the curves run over, through faces
-/// near a curve or with an edge longer than the sizing wants. Other layers of cloth, however near, are none.
-/// By face index. O(faces of the band).
-std::vector<bool> band_faces(const Mesh& mesh, const EdgeMap<double>& rest, std::span<const FoldCurve> curves,
-                             const BandSizing& sizing) {
+std::vector<Face> band_faces(const Mesh& mesh, const EdgeMap<double>& rest, std::span<const FoldCurve> curves,
+                             const BandSizing& sizing, bool graded) {
   std::vector<bool> inside(mesh.num_faces(), false);
   std::vector<Face> queue;
   const auto add = [&](Face f) {
@@ -65,11 +63,13 @@ std::vector<bool> band_faces(const Mesh& mesh, const EdgeMap<double>& rest, std:
     const auto lengths = rest_lengths_of(mesh, rest, queue[next]);
     const double longest = *std::max_element(lengths.begin(), lengths.end());
     const Point centre = centre_of(mesh, queue[next]);
-    if (!(sizing.at(centre, longest) < longest) && !sizing.in_band(centre)) continue;
-    for (Halfedge h : halfedges_of(mesh, queue[next]))
-      if (!mesh.is_border(mesh.opposite(h))) add(mesh.face(mesh.opposite(h)));
+    if (!(graded && sizing.at(centre, longest) < longest) && !sizing.in_band(centre)) continue;
+    for (Halfedge h : halfedges_of(mesh, queue[next])) {
+      const Face beyond = mesh.face(mesh.opposite(h));
+      if (beyond.is_valid() && (graded || sizing.in_band(centre_of(mesh, beyond)))) add(beyond);
+    }
   }
-  return inside;
+  return queue;
 }
 
 /// Splits edges of the band, the longest first, until none is longer at rest than 1.33 of the sizing at its
@@ -106,6 +106,12 @@ void embed(BandMesh& band, const CurveArcs& arcs) {
 
 }  // namespace
 
+std::vector<Face> faces_of_band(const Mesh& mesh, std::span<const FoldCurve> curves,
+                                const BandOptions& options, bool graded) {
+  const BandSizing sizing(curves, options.detail, options.least_edge);
+  return band_faces(mesh, find_map(mesh, attribute::rest_length).value(), curves, sizing, graded);
+}
+
 BandReport refine_band(Mesh& mesh, std::span<const FoldCurve> curves, const BandOptions& options) {
   check(mesh, curves, options);
   Mesh work = mesh;
@@ -114,7 +120,7 @@ BandReport refine_band(Mesh& mesh, std::span<const FoldCurve> curves, const Band
   for (Vertex v : options.held) band.hold[v.idx()] = Hold::fixed;
   const CurveArcs arcs(curves);
   const BandSizing sizing(arcs.arcs, options.detail, options.least_edge);
-  band.in_band = band_faces(work, band.rest, arcs.arcs, sizing);
+  for (Face f : band_faces(work, band.rest, arcs.arcs, sizing, true)) band.in_band[f.idx()] = true;
   for (std::size_t i = 0; i < arcs.arcs.size(); ++i)
     band.curves.emplace_back(arcs.arcs[i], sizing.on_curves()[i]);
   const double before = smallest_angle_of(band);

@@ -54,4 +54,10 @@ struct BandReport {
 /// About O(new vertices). \details Steps: relax_band.h, embed_curve.h.
 BandReport refine_band(Mesh& mesh, std::span<const FoldCurve> curves, const BandOptions& options = {});
 
+/// Faces that hang together with those under the curves and lie near one, where a fold may raise them;
+/// `graded`: all that refine_band() begins with, those with an edge longer than wanted and those beside them,
+/// too. Other layers of cloth, however near, are none. The mesh must have rest lengths. About O(faces found).
+std::vector<Face> faces_of_band(const Mesh& mesh, std::span<const FoldCurve> curves,
+                                const BandOptions& options, bool graded);
+
 }  // namespace furrow::geometry

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "geometry/fold/line_region.h"
 #include "geometry/mesh/edge_metric.h"
@@ -116,7 +117,11 @@ double mean_height(const Mesh& mesh, const Patch& patch, const Eigen::MatrixXd& 
 
 }  // namespace
 
-std::vector<LineHeight> line_heights(const Mesh& mesh, std::span<const double> widths) {
+namespace {
+
+using Wanted = std::optional<std::span<const int>>;
+
+std::vector<LineHeight> heights_of(const Mesh& mesh, std::span<const double> widths, const Wanted& wanted) {
   std::vector<LineHeight> heights;
   const auto line = find_map(mesh, attribute::line);
   if (!line) return heights;
@@ -127,7 +132,8 @@ std::vector<LineHeight> line_heights(const Mesh& mesh, std::span<const double> w
   const std::vector<double> before = any_width ? lengths_before_lines(mesh) : std::vector<double>{};
   std::map<int, std::vector<Vertex>> lines;
   for (Vertex v : line_vertices(mesh))
-    if (!mesh.is_isolated(v)) lines[(*line)[v]].push_back(v);
+    if (!mesh.is_isolated(v) && (!wanted || std::binary_search(wanted->begin(), wanted->end(), (*line)[v])))
+      lines[(*line)[v]].push_back(v);
   for (auto& [id, vertices] : lines) {
     physics::throw_if_cancelled("line_heights");
     LineHeight height{id, unset_value, vertices.size()};
@@ -140,6 +146,17 @@ std::vector<LineHeight> line_heights(const Mesh& mesh, std::span<const double> w
     heights.push_back(height);
   }
   return heights;
+}
+
+}  // namespace
+
+std::vector<LineHeight> line_heights(const Mesh& mesh, std::span<const double> widths) {
+  return heights_of(mesh, widths, std::nullopt);
+}
+
+std::vector<LineHeight> line_heights(const Mesh& mesh, std::span<const double> widths,
+                                     std::span<const int> of) {
+  return heights_of(mesh, widths, of);
 }
 
 }  // namespace furrow::geometry

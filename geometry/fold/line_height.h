@@ -28,5 +28,8 @@ struct LineHeight {
 /// patch of half-width w sags by about w^2 / 2R, which counts as height: wrinkle() takes the height before
 /// displacement off.
 std::vector<LineHeight> line_heights(const Mesh& mesh, std::span<const double> widths = {});
+/// The same of some lines alone, whose ids ascend.
+std::vector<LineHeight> line_heights(const Mesh& mesh, std::span<const double> widths,
+                                     std::span<const int> of);
 
 }  // namespace furrow::geometry

@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,6 +14,9 @@
 #include "geometry/stroke/stroke.h"
 
 namespace furrow::geometry {
+
+class FoldMemory;
+std::shared_ptr<FoldMemory> make_fold_memory();
 
 enum class SmoothingRegion { two_ring, whole_mesh };
 
@@ -32,6 +36,9 @@ struct WrinkleOptions {
   bool flat_base =
       false;  ///< new vertices stay on the facets of the mesh given, so that k = 0 is an isometry
   int fold_iterations = 5;  ///< pairs of smoothing steps; [0, 100000]
+  /// Of a program that draws the same lines again and again, and more: folds that it has drawn before on this
+  /// mesh are taken from there, to the same bits. Several threads may share one.
+  std::shared_ptr<FoldMemory> memory = nullptr;
 };
 
 struct WrinkledLine {

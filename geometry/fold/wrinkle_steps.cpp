@@ -56,7 +56,7 @@ void end_wrinkling(Mesh& mesh, const WrinkleOptions& options, WrinkleReport& rep
   report.total_mass = lump_masses(mesh, options.density);
   report.rest_area_after = rest_area(mesh);
   report.structural_springs = mesh.number_of_edges();
-  report.bending_springs = bending_springs(mesh).size();
+  report.bending_springs = count_bending_springs(mesh);
 }
 
 }  // namespace furrow::geometry

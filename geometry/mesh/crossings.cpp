@@ -67,7 +67,11 @@ CrossingPlace sum_up(const Gathered& g) {
 }  // namespace
 
 Crossings find_crossings(const Mesh& mesh, const Parts& parts, std::span<const char> crossed) {
-  const std::vector<Pair> pairs = self_intersections(mesh);
+  return find_crossings(mesh, parts, self_intersections(mesh), crossed);
+}
+
+Crossings find_crossings(const Mesh& mesh, const Parts& parts, std::span<const std::array<Face, 2>> pairs,
+                         std::span<const char> crossed) {
   Crossings result;
   result.pairs = pairs.size();
   for (const Pair& pair : pairs) result.faces.insert(result.faces.end(), pair.begin(), pair.end());
@@ -78,7 +82,7 @@ Crossings find_crossings(const Mesh& mesh, const Parts& parts, std::span<const c
     return std::any_of(v.begin(), v.end(),
                        [&](Vertex c) { return c.idx() < crossed.size() && crossed[c.idx()]; });
   };
-  Joined joined = join_places(mesh, pairs, result.faces);
+  Joined joined = join_places(mesh, {pairs.begin(), pairs.end()}, result.faces);
   std::map<std::size_t, Gathered> places;
   for (const auto& [f, g] : pairs) {
     Gathered& at = places[joined.root(f.idx())];

@@ -29,6 +29,9 @@ struct Crossings {
 /// Where a mesh crosses itself. `crossed`: by vertex index, whether faces at the vertex crossed at an earlier
 /// time (crossed_vertices()); vertices beyond its end did not. Errors and cost as count_self_intersections().
 Crossings find_crossings(const Mesh& mesh, const Parts& parts, std::span<const char> crossed = {});
+/// The same of self_intersections() that are known; `parts` is not asked where there are none.
+Crossings find_crossings(const Mesh& mesh, const Parts& parts, std::span<const std::array<Face, 2>> pairs,
+                         std::span<const char> crossed);
 
 /// By vertex index, the corners of faces that cross.
 std::vector<char> crossed_vertices(const Mesh& mesh, const Crossings& crossings);

@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <cstddef>
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,18 @@ std::size_t count_self_intersections(const Mesh& mesh);
 
 /// Those pairs: the lower face first, in ascending order. Errors and cost as above.
 std::vector<std::array<Face, 2>> self_intersections(const Mesh& mesh);
+
+/// The pairs of the mesh that was last asked for. Several threads may share one.
+struct CrossingMemory {
+  std::mutex mutex;
+  std::vector<Point> points;
+  std::vector<std::array<int, 3>> triangles;
+  std::vector<std::array<std::size_t, 2>> pairs;  ///< of triangles
+};
+
+/// self_intersections() of a mesh of which most is as the last one was: only pairs of which one face is new
+/// or lies elsewhere are looked for.
+std::vector<std::array<Face, 2>> self_intersections(const Mesh& mesh, CrossingMemory& memory);
 
 /// The same count for plain arrays; `triangles` index `points`. Throws ContentError for an index out of range
 /// too.

@@ -211,10 +211,17 @@ std::vector<BendingSpring> bending_springs(const Mesh& mesh) {
   return springs;
 }
 
+std::size_t count_bending_springs(const Mesh& mesh) {
+  const auto count = find_map(mesh, attribute::bending_count);
+  if (!count || !find_map(mesh, attribute::bending_rest_length)) return 0;
+  const auto holds = [&](Edge e) { return (*count)[e] > 0 && !mesh.is_border(e); };
+  return static_cast<std::size_t>(std::count_if(mesh.edges_begin(), mesh.edges_end(), holds));
+}
+
 void ensure_bending_springs(Mesh& mesh) {
   const bool known =
       find_map(mesh, attribute::bending_rest_length) && find_map(mesh, attribute::bending_count);
-  if (known && !bending_springs(mesh).empty()) return;
+  if (known && count_bending_springs(mesh) > 0) return;
   const auto rest = values_of(mesh, attribute::bending_rest_length),
              stiffness = values_of(mesh, attribute::bending_stiffness);
   rebuild_bending_springs(mesh);

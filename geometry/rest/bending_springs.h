@@ -38,5 +38,7 @@ void rebuild_bending_springs(Mesh& mesh, std::span<const Face> changed);
 
 /// The springs that the maps hold, sorted by (a, b); none if the mesh has no such maps.
 std::vector<BendingSpring> bending_springs(const Mesh& mesh);
+/// How many they are. O(edges).
+std::size_t count_bending_springs(const Mesh& mesh);
 
 }  // namespace furrow::geometry

@@ -8,6 +8,7 @@
 
 #include "geometry/mesh/crossings.h"
 #include "geometry/mesh/property_names.h"
+#include "geometry/mesh/self_intersections.h"
 #include "geometry/mesh/vertex_attributes.h"
 #include "geometry/refine/subdivide.h"
 
@@ -48,10 +49,13 @@ CrossedStart crossed_start(const geometry::Mesh& mesh, int refinements) {
   return start;
 }
 
-ClothCrossings measure_crossings(const io::MeshFile& file, const CrossedStart* start) {
-  const geometry::Parts parts = geometry::find_parts(file.mesh);
+ClothCrossings measure_crossings(const io::MeshFile& file, const CrossedStart* start,
+                                 geometry::CrossingMemory* memory) {
+  const auto pairs =
+      memory ? geometry::self_intersections(file.mesh, *memory) : geometry::self_intersections(file.mesh);
+  const geometry::Parts parts = pairs.empty() ? geometry::Parts{} : geometry::find_parts(file.mesh);
   const geometry::Crossings found =
-      geometry::find_crossings(file.mesh, parts, start ? start->vertices : std::vector<char>{});
+      geometry::find_crossings(file.mesh, parts, pairs, start ? start->vertices : std::vector<char>{});
   ClothCrossings result;
   if (start) result.at_start = start->pairs;
   result.pairs = found.pairs;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "geometry/mesh/parts.h"
+#include "geometry/mesh/self_intersections.h"
 #include "jobs/base/ends.h"
 
 namespace furrow::jobs {
@@ -10,8 +11,10 @@ namespace furrow::jobs {
 CrossedStart crossed_start(const geometry::Mesh& mesh, int refinements = 0);
 
 /// Counts and places what crosses in a garment now; `start` (null: only one state is known) tells old
-/// crossings from new ones. Throws as geometry::find_crossings(). Cost: some 3 us a face.
-ClothCrossings measure_crossings(const io::MeshFile& file, const CrossedStart* start = nullptr);
+/// crossings from new ones; `memory` (null: none) has what changed little looked at in places. Throws as
+/// geometry::find_crossings(). Cost: some 3 us a face.
+ClothCrossings measure_crossings(const io::MeshFile& file, const CrossedStart* start = nullptr,
+                                 geometry::CrossingMemory* memory = nullptr);
 
 /// What a part is called: the group that its faces alone belong to ("'button'"), else "part 2 (12 vertices)";
 /// of a garment in one piece "the garment".

@@ -150,12 +150,13 @@ DrawnRound draw(const WrinkleJob& job, Canvas& canvas, const io::Scene* keep, bo
   if (stages) stages->before = canvas.file.mesh;
   if (quality) quality->before = quality_before(canvas.file.mesh);
   std::vector<geometry::Point> displaced;
-  const auto keep_stage = [&](geometry::Stage stage, const geometry::Mesh& mesh) {
+  geometry::StageObserver keep_stage = [&](geometry::Stage stage, const geometry::Mesh& mesh) {
     if (quality && stage == geometry::Stage::displaced)
       displaced.assign(mesh.points().begin(), mesh.points().end());
     if (stages && stage == geometry::Stage::inserted) stages->inserted = mesh;
     if (stages && stage == geometry::Stage::displaced) stages->displaced = mesh;
   };
+  if (!stages && !quality) keep_stage = nullptr;
   const std::size_t old_count = canvas.file.mesh->number_of_vertices();
   DrawnRound drawn;
   LineTarget target = target_of(job, canvas, keep);
@@ -202,7 +203,7 @@ void write(const WrinkleJob& job, const WrinkleReport& report, const Context& co
 void look_at_lines(const WrinkleJob& job, const io::MeshFile& file, const CrossedStart& crossed,
                    WrinkleReport& report, const Context& context) {
   const std::string where = path_of(job.strokes);
-  report.crossings = measure_crossings(file, &crossed);
+  report.crossings = measure_crossings(file, &crossed, job.crossings.get());
   const geometry::WrinkleReport& lines = report.drawn.round.report;
   auto layers = layers_crossed(file.mesh, lines, report.crossings);
   if (layers) layers->where = where;
@@ -321,7 +322,7 @@ WrinkleReport draw_and_settle(const WrinkleJob& job, Budget& budget) {
   if (job.max_weights) limit_noted_weights(canvas.file, *job.max_weights);
   if (scene) warn_if_shape_only(job.output, context);
   if (scene && !job.state) note_material(canvas.file, job.keep->settings, 0);
-  report.drawn.rest = geometry::audit_rest_metric(canvas.file.mesh);
+  if (job.wants_quality) report.drawn.rest = geometry::audit_rest_metric(canvas.file.mesh);
   look_at_lines(job, canvas.file, *crossed, report, context);
   report.garment = std::move(canvas.file);
   if (canvas.state) {

@@ -16,6 +16,10 @@
 #include "jobs/base/ends.h"
 #include "jobs/draw/drawn_round.h"
 
+namespace furrow::geometry {
+struct CrossingMemory;
+}
+
 namespace furrow::jobs {
 
 /// Ridge and valley lines to be drawn on a garment, or into a simulation that was stopped.
@@ -51,9 +55,11 @@ struct WrinkleJob {
   std::filesystem::path output;         ///< mesh, or with a state a state, to write; empty or "-": none
   std::filesystem::path inserted;  ///< mesh after insertion and before smoothing; empty or "-": not written
   bool wants_stages = false;       ///< the report has the mesh before and after insertion
-  bool wants_quality = true;       ///< the report has the quality of the lines: a fifth of the time
+  bool wants_quality = true;       ///< and the audit of the rest metric: a fifth of the time
   /// How the garment crosses itself before the lines; none: it is counted, a tenth of the time.
   std::shared_ptr<const CrossedStart> crossed = {};
+  /// Of a program that draws on the same garment again and again (geometry/mesh/self_intersections.h).
+  std::shared_ptr<geometry::CrossingMemory> crossings = {};
   std::vector<std::string> more_outputs = {};  ///< files that the caller writes: none may replace another
   std::vector<std::string> more_inputs = {};   ///< files that the caller reads: none may be replaced
 };

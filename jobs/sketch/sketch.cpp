@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "geometry/mesh/self_intersections.h"
 #include "io/base/atomic_file.h"
 #include "io/scene/fabrics.h"
 #include "io/scene/relocated.h"
@@ -115,6 +116,7 @@ WrinkleJob job_for(const Sketch& sketch, const Json& strokes) {
   job.options = sketch.options;
   job.density = sketch.density;
   job.crossed = sketch.crossed;
+  job.crossings = sketch.crossings;
   job.wants_quality = false;
   job.budget = std::numeric_limits<double>::infinity();  // whoever draws sees it and cancels
   return job;
@@ -178,12 +180,14 @@ Sketch open_sketch(const SceneInput& input, Listener& listener, const fs::path& 
   sketch.garment = begin_garment(scene, context);
   sketch.pins = find_pins(sketch.garment, scene.pins);
   sketch.crossed = std::make_shared<const CrossedStart>(crossed_start(sketch.garment.mesh));
+  sketch.crossings = std::make_shared<geometry::CrossingMemory>();
   sketch.density = scene.material.density;
   if (rounds_at_start(scene) == 1) {
     const auto round = std::find_if(scene.lines.begin(), scene.lines.end(),
                                     [](const io::SceneLines& l) { return l.time == 0; });
     sketch.options = round->options;
   }
+  sketch.options.memory = geometry::make_fold_memory();
   if (!made_for.empty())
     sketch.body = read_mesh(made_for, context);
   else if (scene.body)

@@ -13,6 +13,10 @@
 #include "jobs/base/inputs.h"
 #include "jobs/draw/shown_mesh.h"
 
+namespace furrow::geometry {
+struct CrossingMemory;
+}
+
 /// What an interactive program asks for while somebody draws on a garment. Its strokes are JSON, each as one
 /// of a stroke file (io/stroke/stroke_file.h), so that what is not looked at is kept. Metres, y up.
 namespace furrow::jobs {
@@ -27,7 +31,8 @@ struct Sketch {
   geometry::WrinkleOptions options;  ///< of its lines
   std::optional<double> density;     ///< of the cloth [kg/m^2]; none: as the garment notes, else the default
   std::vector<std::vector<int>> pins;
-  std::shared_ptr<const CrossedStart> crossed;  ///< how the garment crosses itself
+  std::shared_ptr<const CrossedStart> crossed;               ///< how the garment crosses itself
+  std::shared_ptr<geometry::CrossingMemory> crossings = {};  ///< of the lines drawn last
 };
 
 /// Reads garment and body. `made_for`: body that the garment lies about, in its unit; empty: the scene's.

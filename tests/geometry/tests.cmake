@@ -6,6 +6,7 @@ furrow_add_tests(geometry geometry LIBRARIES furrow::geometry SOURCES
   mesh/closest_point_test.cpp
   mesh/edge_metric_test.cpp
   mesh/measures_test.cpp
+  mesh/patch_test.cpp
   mesh/mesh_fwd_test.cpp
   mesh/select_vertices_test.cpp
   mesh/crossings_test.cpp
@@ -50,6 +51,7 @@ furrow_add_tests(geometry geometry LIBRARIES furrow::geometry SOURCES
   fold/displace_line_test.cpp
   fold/fold_heights_test.cpp
   fold/fold_lines_test.cpp
+  fold/fold_memory_test.cpp
   fold/line_height_test.cpp
   fold/line_press_test.cpp
   fold/line_profile_test.cpp
