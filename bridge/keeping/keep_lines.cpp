@@ -156,6 +156,7 @@ class Keeper {
     });
     found.outcome.kept = std::move(trial.kept);
     found.outcome.kept_gust = std::move(trial.kept_gust);
+    found.outcome.blown = o_.gust > 0;
     tally.drift = trial.drift;
     tally.interrupted = tally.interrupted || trial.stopped;
     return any(early) ? early : weak_lines(found);

@@ -45,7 +45,9 @@ double may_lose(const KeepOutcome& outcome, double least) {
   return (outcome.shape.certificate.stable() ? 1 : reserve) * (1 - least);
 }
 
-double may_lose_in_gusts(double least) { return reserve * (1 - least); }
+double may_lose_in_gusts(const KeepOutcome& outcome, double least) {
+  return outcome.blown ? reserve * (1 - least) : may_lose(outcome, least);
+}
 
 LineFlags lines_at_rest(const TriedPlan& found, double least) {
   const LineFlags loose = loose_lines(found);
@@ -60,7 +62,7 @@ LineFlags lines_at_rest(const TriedPlan& found, double least) {
 LineFlags good_lines(const TriedPlan& found, double least) {
   LineFlags good = lines_at_rest(found, least);
   for (std::size_t i = 0; i < good.size(); ++i)
-    good[i] = good[i] && std::abs(found.outcome.kept_gust[i] - 1) <= may_lose_in_gusts(least);
+    good[i] = good[i] && std::abs(found.outcome.kept_gust[i] - 1) <= may_lose_in_gusts(found.outcome, least);
   return good;
 }
 
@@ -105,7 +107,7 @@ std::string why_not(bool interrupted, const TriedPlan& found, std::size_t line, 
   return "it came within " + share_text(farthest_off(found.outcome, line)) +
          " of its height in this trial, but another may end farther off; a line is held for sure within " +
          share_text(may_lose(found.outcome, o.kept)) + ", and after gusts within " +
-         share_text(may_lose_in_gusts(o.kept));
+         share_text(may_lose_in_gusts(found.outcome, o.kept));
 }
 
 /// What a line is balanced at [m]: one that lies across another which the plan lowers is lowered with it.

@@ -21,6 +21,7 @@ struct KeepOutcome {
   KeptShape shape;                      ///< of that
   double rest_press;                    ///< factor on the hinges outside of all patches [-]
   std::vector<double> kept, kept_gust;  ///< of each line, shares of its height [-]; NaN: not run
+  bool blown = false;                   ///< there were gusts; else kept_gust is what calm left
 };
 struct TriedPlan {
   KeepPlan plan;
@@ -39,8 +40,8 @@ bool is_bound(const HelpedLine& line, const KeepOutcome& outcome);
 /// Of its height, or win [-]; least: share that it must keep. An unstable shape ends elsewhere each time: a
 /// run is a sample, and the next one may be worse.
 double may_lose(const KeepOutcome& outcome, double least);
-/// Where a gust leaves a line is a sample, too, whether the shape is stable or not.
-double may_lose_in_gusts(double least);
+/// The same after gusts: where one leaves a line is a sample, too, whether the shape is stable or not.
+double may_lose_in_gusts(const KeepOutcome& outcome, double least);
 
 /// Lines that keep their height where nothing blows, as far as is known; least: share of its height that a
 /// line must keep [-].

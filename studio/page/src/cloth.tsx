@@ -154,7 +154,7 @@ export function Cloth({ status, busy, mayDraw, map, moving, speed, kept, actions
         <button
           class={kept ? "" : "main"}
           disabled={!held || !idle}
-          title="Let it come to rest, with lines that last (D)"
+          title="Let it come to rest, its lines held (D)"
           onClick={actions.drape}
         >
           Drape
@@ -232,7 +232,7 @@ export function Cloth({ status, busy, mayDraw, map, moving, speed, kept, actions
           ? "It lies about the body that it was made for. Drape brings it to yours, in its own size, and lets it come " +
             "to rest there."
           : held
-            ? "Drape lets the cloth come to rest with lines that last. Keep tries each in gusts, too, for half a minute or so. " +
+            ? "Drape lets the cloth come to rest and holds its lines. Keep tries each in gusts, too, for half a minute or so. " +
               "Play lets it move."
             : "To let it move, hold a border, pin it (P), or open it with a body (O)."}
       </p>

@@ -42,7 +42,7 @@ export function Help({ close }: { close: () => void }) {
         line that begins or ends beside the cloth reaches its border. Drag on the background to turn it, with
         the right button to move it; the wheel brings it nearer. Every line stays in the list and can be
         changed; a chosen one is dragged by its dots. When they are drawn,
-        <b>Drape</b> lets the cloth come to rest with lines that last, and <b>Picture</b> takes one of it;{" "}
+        <b>Drape</b> lets the cloth come to rest and holds its lines, and <b>Picture</b> takes one of it;{" "}
         <b>Keep</b>, before a drape, tries each line in gusts; <b>Play</b> lets the cloth move until you pause
         it (pull at it meanwhile). Then you can draw more. Each step can be undone, and is kept on disk.
       </p>

@@ -17,7 +17,7 @@ const hints: [(s: Status) => boolean, string][] = [
   ],
   [
     (s) => s.step <= 12 && s.lines.some((l) => l.on) && s.can_drape,
-    "When all lines are drawn: Drape (D) lets the cloth come to rest, and they last. " +
+    "When all lines are drawn: Drape (D) lets the cloth come to rest and holds them. " +
       "Undo takes anything back.",
   ],
   [(s) => s.undo === "keep" && s.step <= 13, "Now press Drape (D): the cloth comes to rest with its folds."],

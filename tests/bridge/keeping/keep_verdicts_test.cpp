@@ -14,7 +14,7 @@ struct Tried {
   bridge::KeepOptions options;
   bridge::TriedPlan found{
       {{{0, {}, 0.01}, {1, {}, 0.01}, {2, {}, 0.01}}},
-      {.cloth = {}, .shape = {}, .rest_press = 1, .kept = {1, 1, 1}, .kept_gust = {1, 1, 1}}};
+      {.cloth = {}, .shape = {}, .rest_press = 1, .kept = {1, 1, 1}, .kept_gust = {1, 1, 1}, .blown = true}};
   std::vector<double> heights{0.01, 0.01, 0.01};
 
   std::vector<bridge::KeptLine> told() const { return bridge::verdicts(found, heights, options, false); }
@@ -52,6 +52,8 @@ TEST_CASE("keep_verdicts: help names what holds, gusts allow two fifths of what 
   CHECK(told[1].struts == tried.options.struts.front());
   CHECK(told[2].verdict == Verdict::may_hold);
   CHECK_FALSE(told[2].reason.empty());
+  tried.found.outcome.blown = false;  // then that is what calm left
+  CHECK(tried.told()[2].verdict == Verdict::held);
 }
 
 TEST_CASE("keep_verdicts: what stands lower than asked is not held, whatever it keeps of that") {

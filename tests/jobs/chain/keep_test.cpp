@@ -249,7 +249,7 @@ TEST_CASE("keep: cancelled before its first rest state a job writes nothing, lat
 }
 
 TEST_CASE("keep: each trial is told by its number, and goes forwards only", "[release]") {
-  jobs::KeepJob job = sheet_over_ball(0.121, 0.09, "rigidity = 1e-4\n");
+  jobs::KeepJob job = sheet_over_ball(0.121, 0.09, "rigidity = 1e-6\n");
   job.seconds = 0.02;
   tests::Recorder recorder;
   jobs::keep(job, recorder);
