@@ -81,8 +81,8 @@ TEST_CASE("messages: the program names its flags") {
         "error: a garment rests on a body or hangs from what holds it: name a body with --body, or what is "
         "held "
         "with --pin-loop, --pin-group, --pin-box or --pin-vertices\n");
-  CHECK(run_furrow("chart " + square + " --set pins.0.loop=0 --set simulation.settle=true -o " +
-                   (scratch / "c.png"))
+  CHECK(run_furrow("chart " + square + " --set pins.0.loop=0 --set simulation.settle=true --csv " +
+                   (scratch / "c.csv"))
             .err.find("say --set simulation.settle=false\n") != std::string::npos);
   CHECK(run_furrow("doctor " + square + " --unit mm")
             .out.find("with --unit mm; say --unit m if its file is in that\n") != std::string::npos);
