@@ -16,9 +16,10 @@ Draped drape_garment(const io::Scene& scene, const BodyCollider* body, const Dra
 /// else 1. What friction alone holds would be held where soft cloth came to lie, stretched and crumpled.
 double soft_start_of(const io::MeshFile& garment, bool pinned);
 
-/// The least number of Loop refinements with which a garment's edges let it keep the gap that is wanted from
-/// a body whose field has this tolerance [m]; of 0 to 4, as many as leave it below 60,000 vertices (some 20
-/// s). 0 for a garment with a rest state of its own, which refinement would replace by its shape.
+/// The least number of Loop refinements with which a garment's edges let it keep the gap that is wanted, to a
+/// tenth, from a body whose field has this tolerance [m]; of 0 to 4, as many as leave it below 60,000
+/// vertices (some 20 s). 0 for a garment with a rest state of its own, which refinement would replace by its
+/// shape.
 int refinements_for_gap(const geometry::Mesh& garment, double wanted, double field_tolerance);
 
 }  // namespace furrow::jobs

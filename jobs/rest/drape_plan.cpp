@@ -209,7 +209,7 @@ double soft_start_of(const io::MeshFile& garment, bool pinned) {
 }
 
 int refinements_for_gap(const geometry::Mesh& garment, double wanted, double tolerance) {
-  constexpr double most_vertices = 60000, slack = 1.05;
+  constexpr double most_vertices = 60000, slack = 1.1;
   if (geometry::find_map(garment, geometry::attribute::rest_length) || garment.number_of_edges() == 0)
     return 0;
   int levels = 0;

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "physics/base/cancel_scope.h"
+#include "physics/base/vector_sums.h"
 #include "physics/linear/negative_pivots.h"
 
 namespace furrow::physics {
@@ -169,6 +170,22 @@ void FreeStiffness::solve(std::span<Vec3> b, ThreadPool* pool) const {
   Eigen::VectorXd y = matrix_.gather(b);
   if (matrix_.rows() > 0) definite_.solve(y, pool);
   matrix_.scatter(y, b);
+}
+
+bool FreeStiffness::solve_within(double least, std::span<Vec3> b, ThreadPool* pool) const {
+  const std::vector<Vec3> given(b.begin(), b.end());
+  const double enough = least * std::sqrt(dot(given, given));
+  std::vector<Vec3> x(b.size(), Vec3::Zero()), left = given;
+  for (int solves = 0; solves < 2; ++solves) {
+    solve(left, pool);
+    add_multiple(x, 1, left);
+    left = given;
+    add_multiple(left, -1, times(x));
+    if (!(dot(left, left) <= enough * enough)) continue;
+    std::copy(x.begin(), x.end(), b.begin());
+    return true;
+  }
+  return false;
 }
 
 double FreeStiffness::mean_diagonal() const {

@@ -63,6 +63,9 @@ class FreeStiffness {
   bool factorise_single(ThreadPool* pool = nullptr);
   /// b becomes the solution in rows of free particles, 0 in the others. Needs factorise_definite() true.
   void solve(std::span<Vec3> b, ThreadPool* pool = nullptr) const;
+  /// The same with factors of single precision, which solve once more for what is left where that is more
+  /// than `least` of b [-]. false, and b is as it was: it is too much then, too.
+  bool solve_within(double least, std::span<Vec3> b, ThreadPool* pool = nullptr) const;
 
   /// Mean of the diagonal of K [N/m], 0 if nothing is free: a scale for shifts.
   double mean_diagonal() const;

@@ -266,23 +266,9 @@ void StepSearch::factorise(const std::vector<Vec3>& x, SlipStiffness of_slip) {
 std::vector<Vec3> StepSearch::solve(std::vector<Vec3> net) {
   const WorkClock::Within solve_part(clock_, WorkPart::solve);
   ++work_.linear_solves;
-  std::vector<Vec3> move = net;
-  stiffness_.solve(move, &pool_);
-  if (!single_) return move;
-  const double enough = single_residual * std::sqrt(dot(net, net));
-  const auto left = [&] {
-    std::vector<Vec3> residual = net;
-    add_multiple(residual, -1, stiffness_.times(move));
-    return residual;
-  };
-  std::vector<Vec3> residual = left();
-  if (dot(residual, residual) <= enough * enough) return move;
-  stiffness_.solve(residual, &pool_);
-  add_multiple(move, 1, residual);
-  residual = left();
-  if (dot(residual, residual) <= enough * enough) return move;
+  if (single_ && stiffness_.solve_within(single_residual, net, &pool_)) return net;
+  if (single_) stiffness_.factorise_definite(0, &pool_);
   single_ = false;
-  stiffness_.factorise_definite(0, &pool_);
   stiffness_.solve(net, &pool_);
   return net;
 }

@@ -43,6 +43,8 @@ constexpr double face_stiffness = 4;      // that many times the vertices'
 constexpr int most_blocked = 8;           // steps running that cloth cuts short, before it ends
 constexpr int most_refused = 30;          // steps running that lead nowhere, before it ends
 constexpr double nowhere = 1e-9;          // m
+constexpr std::size_t many = 10000;       // particles whose factors are of single precision, as that pays
+constexpr double single_residual = 1e-3;  // of the force, that a solution of those may leave
 
 void check(const Cloth& cloth, const SettleOptions& o) {
   constexpr const char* me = "settle";
@@ -339,6 +341,24 @@ class Settler {
     pairs_->couple(*stiffness_);
   }
 
+  /// In single precision, until that does not do once: what is nearly singular needs more.
+  bool factorise_as_assembled() {
+    unchecked_ = single_ && stiffness_->factorise_single(&pool_);
+    if (unchecked_) return true;
+    const bool definite = stiffness_->factorise_definite(0, &pool_);
+    single_ = single_ && !definite;
+    return definite;
+  }
+
+  /// By the last factors. The first solution of those in single precision is checked; where they do not do,
+  /// others take their place, and where there are none, b stays.
+  void solve(std::span<Vec3> b) {
+    if (!std::exchange(unchecked_, false)) return stiffness_->solve(b, &pool_);
+    if (stiffness_->solve_within(single_residual, b, &pool_)) return;
+    single_ = false;
+    if (stiffness_->factorise_definite(0, &pool_)) stiffness_->solve(b, &pool_);
+  }
+
   /// Clamps the Hessian until it is positive definite.
   Factors factorise(const Pace& pace) {
     double clamp = pace.clamp;
@@ -350,7 +370,7 @@ class Settler {
       for (std::size_t i = 0; i < p_.size(); ++i)
         if (p_.inv_mass[i] > 0)
           stiffness_->add(int(i), p_.mass[i] / (pace.tau * pace.tau) * Mat3::Identity());
-      if (stiffness_->factorise_definite(0, &pool_)) return {true, clamp, tries};
+      if (factorise_as_assembled()) return {true, clamp, tries};
       if (clamp == 1) return {false, clamp, tries};
       clamp = tries == 4 ? 1 : std::min(1.0, std::max(least_clamp, 2 * clamp));
     }
@@ -395,7 +415,7 @@ class Settler {
   Step step(const Pace& pace, Answer& here, bool near) {
     const Factors factors = factorise(pace);
     if (!factors.definite) return {{0.25 * pace.tau, factors.clamp}, factors.tries, 0, false};
-    LimitedMemory inverse([this](std::span<Vec3> f) { stiffness_->solve(f, &pool_); }, most_followers);
+    LimitedMemory inverse([this](std::span<Vec3> f) { solve(f); }, most_followers);
     Vectors net = net_force(here);
     Move move = find_move(inverse, net);
     if (!contacts_.empty() && near) {
@@ -452,6 +472,8 @@ class Settler {
   ElementForces elements_;
   std::shared_ptr<FreeStiffness> stiffness_;  ///< shared by o_.work until pairs need more blocks
   bool own_stiffness_ = false;
+  bool single_ = p_.size() >= many;  ///< factors are of single precision
+  bool unchecked_ = false;           ///< those at hand are, and solved for nothing yet
   ThreadPool pool_;
   std::optional<AnchoredContact> contact_;
   std::optional<FaceContact> faces_;

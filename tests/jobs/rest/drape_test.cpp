@@ -13,7 +13,10 @@
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/sheet.h"
 #include "geometry/refine/subdivide.h"
+#include "geometry/rest/rest_metric.h"
 #include "io/scene/scene.h"
+#include "jobs/body/world_body.h"
+#include "jobs/rest/drape_garment.h"
 #include "jobs/rest/drape_starts.h"
 #include "tests/jobs/job_folders.h"
 #include "tests/jobs/recorder.h"
@@ -51,6 +54,15 @@ bool remarks_on(const jobs::DrapeJobReport& report, const std::string& code) {
 }
 
 }  // namespace
+
+TEST_CASE("drape: a garment is refined no more once its edges keep the gap to a tenth") {
+  const geometry::Mesh tube = tests::cylinder(0.1, 0.4, 12, 8);
+  geometry::Mesh measured = tube;
+  geometry::ensure_rest_lengths(measured);
+  const double tolerance = 1e-4, kept = jobs::edge_sag(measured) / 4 + tolerance;
+  CHECK(jobs::refinements_for_gap(tube, kept / 1.09, tolerance) == 1);
+  CHECK(jobs::refinements_for_gap(tube, kept / 1.11, tolerance) == 2);
+}
 
 TEST_CASE("drape: a garment and a body in memory come to the bits of their files", "[release]") {
   const fs::path folder = tests::empty_folder("drape_memory");

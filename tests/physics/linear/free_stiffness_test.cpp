@@ -71,6 +71,35 @@ TEST_CASE("free_stiffness: solutions, signs and scale agree with the dense matri
   }
 }
 
+TEST_CASE("free_stiffness: single precision solves within what is asked, or leaves the force as it was") {
+  const Cloth cloth = crumpled(0.002);
+  FreeStiffness k(cloth);
+  k.assemble(cloth, cloth.particles.x, Stiffness::positive_part);
+  for (int i = 0; i < 16; ++i) k.add(i, Mat3::Identity());
+  Noise noise(7);
+  std::vector<Vec3> b(cloth.particles.size());
+  for (std::size_t i = 0; i < b.size(); ++i)
+    b[i] = cloth.particles.inv_mass[i] > 0 ? noise.vector() : Vec3::Zero();
+  REQUIRE(k.factorise_single());
+  const auto left_of = [&](const std::vector<Vec3>& x) {
+    const std::vector<Vec3> product = k.times(x);
+    double rest = 0, whole = 0;
+    for (std::size_t i = 0; i < b.size(); ++i) {
+      rest += (product[i] - b[i]).squaredNorm();
+      whole += b[i].squaredNorm();
+    }
+    return std::sqrt(rest / whole);
+  };
+  std::vector<Vec3> once = b, twice = b, never = b;
+  k.solve(once);
+  const double first = left_of(once);
+  REQUIRE(first > 1e-9);
+  REQUIRE(k.solve_within(1e-2 * first, twice));
+  CHECK(left_of(twice) <= 1e-2 * first);
+  CHECK_FALSE(k.solve_within(0, never));
+  CHECK(never == b);
+}
+
 TEST_CASE("free_stiffness: blocks that are added count until the next assembly") {
   Cloth cloth = crumpled(0);
   FreeStiffness k(cloth);
