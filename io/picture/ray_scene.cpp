@@ -4,6 +4,7 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 namespace furrow::io {
@@ -141,12 +142,27 @@ std::optional<LineHit> RayScene::nearest_line(const Vector3d& origin, const Vect
                  length > 0 ? Vector3d(normal / length) : Vector3d(-direction)};
 }
 
-bool RayScene::is_blocked(const Vector3d& origin, const Vector3d& direction, double max_distance) const {
+BundleValues RayScene::blocked(const Vector3d& origin, const Bundle& directions, float max_distance) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  RTCRay ray = new_ray(origin, direction, max_distance);
-  rtcOccluded1(surfaces_.get(), &context, &ray);
-  return ray.tfar < 0;
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  RTCRay16 rays{};
+  alignas(64) int valid[16];
+  for (int i = 0; i < 16; ++i) {
+    valid[i] = -1;
+    rays.org_x[i] = float(origin.x());
+    rays.org_y[i] = float(origin.y());
+    rays.org_z[i] = float(origin.z());
+    rays.dir_x[i] = directions(i, 0);
+    rays.dir_y[i] = directions(i, 1);
+    rays.dir_z[i] = directions(i, 2);
+    rays.tfar[i] = max_distance;
+    rays.mask[i] = ~0u;
+  }
+  rtcOccluded16(valid, surfaces_.get(), &context, &rays);
+  BundleValues values;
+  for (int i = 0; i < 16; ++i) values[i] = rays.tfar[i] < 0 ? 1 : 0;
+  return values;
 }
 
 }  // namespace furrow::io

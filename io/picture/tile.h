@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "io/picture/eye.h"
+#include "io/picture/shade.h"
+
+namespace furrow::io {
+
+/// A part of the picture, made for as few rays as it can be. One line of sight runs through each corner of a
+/// pixel. Where the four corners look alike, the pixel is their mean; elsewhere it takes side × side lines of
+/// sight of its own. The shares of light that arrive are found at every fourth corner, and are blended
+/// between where these lie on one smooth surface and agree; elsewhere they are found at the corner itself.
+/// Nothing is left to chance: what a tile shows does not depend on the others.
+class Tile {
+ public:
+  static constexpr int pixels = 64;  ///< of its sides, unless the picture ends before
+
+  /// Keeps references to the first two. `side`: of the lines of sight through an edge's pixel.
+  Tile(const Eye& eye, const Shader& shader, int side, int column, int row);
+
+  /// Linear light of a pixel, counted from the picture's corner; none: nothing but the background.
+  std::optional<Eigen::Vector3d> pixel(int column, int row, const Eigen::Vector3d& background) const;
+
+ private:
+  struct Place {
+    Look look;
+    LightShares shares;
+    std::optional<Eigen::Vector3d> light;
+  };
+  struct Lender {
+    const Place* place;
+    double weight;
+  };
+  static std::optional<LightShares> borrowed(const Seen& seen, std::span<const Lender> lenders,
+                                             double most_apart);
+  const Place& corner(int i, int j) const { return corners_[std::size_t(j) * (pixels + 1) + i]; }
+  Place& corner(int i, int j) { return corners_[std::size_t(j) * (pixels + 1) + i]; }
+  std::array<Lender, 4> nodes_around(int i, int j) const;
+  void light_corner(int i, int j);
+  Eigen::Vector3d many(int i, int j, const Eigen::Vector3d& background) const;
+
+  const Eye& eye_;
+  const Shader& shader_;
+  int side_, column_, row_;
+  std::vector<Place> corners_;
+};
+
+}  // namespace furrow::io
