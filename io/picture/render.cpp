@@ -31,7 +31,7 @@ Effort effort(Quality quality) {
     case Quality::draft:
       return {2, 1, 0.10};
     case Quality::normal:
-      return {4, 4, 0.30};
+      return {4, 8, 0.30};
     case Quality::fine:
       return {6, 8, 0.30};
   }

@@ -10,9 +10,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int spacing = 4;              // [pixels], of the corners where the shares of light are found
-constexpr double least_weight = 0.2;    // of those around that lend theirs
-constexpr double most_apart = 0.08;     // of the light that they give, where they agree
+constexpr int widest = 8;               // [pixels] between corners whose shares of light are found first
+constexpr double most_apart = 0.08;     // of the light at corners that agree
 constexpr double most_contrast = 0.06;  // of the light at the corners of a pixel that look alike
 
 /// Whether two places lie on one smooth surface: as on an arc, what leads from one to the other is at right
@@ -38,38 +37,31 @@ Tile::Tile(const Eye& eye, const Shader& shader, int side, int column, int row)
       corners_(std::size_t(pixels + 1) * (pixels + 1)) {
   for (int j = 0; j <= pixels; ++j)
     for (int i = 0; i <= pixels; ++i) corner(i, j).look = eye.look(column + i, row + j);
-  for (int j = 0; j <= pixels; j += spacing)
-    for (int i = 0; i <= pixels; i += spacing)
-      if (const auto& seen = corner(i, j).look.surface) corner(i, j).shares = shader.shares(*seen);
-  for (int j = 0; j <= pixels; ++j)
-    for (int i = 0; i <= pixels; ++i) light_corner(i, j);
+  for (int spacing = widest; spacing > 0; spacing /= 2)
+    for (int j = 0; j <= pixels; j += spacing)
+      for (int i = 0; i <= pixels; i += spacing)
+        if (spacing == widest || (i | j) & spacing) light_corner(i, j, spacing);
 }
 
-void Tile::light_corner(int i, int j) {
+/// Those around are the corners that were found at the next wider spacing.
+void Tile::light_corner(int i, int j, int spacing) {
   Place& place = corner(i, j);
   place.light = place.look.line;
   if (!place.look.surface) return;
   const Seen& seen = *place.look.surface;
-  if (i % spacing || j % spacing) {
-    const auto blended = borrowed(seen, nodes_around(i, j), most_apart);
-    place.shares = blended ? *blended : shader_.shares(seen);
-  }
+  const int x = i & spacing, y = j & spacing;
+  const std::array<Lender, 4> around{{{&corner(i - x, j - y), 1},
+                                      {&corner(i + x, j - y), 1},
+                                      {&corner(i - x, j + y), 1},
+                                      {&corner(i + x, j + y), 1}}};
+  const auto blended = spacing < widest ? borrowed(seen, around, 4, most_apart) : std::nullopt;
+  place.shares = blended ? *blended : shader_.shares(seen);
   place.light = shader_.light(seen, place.shares);
 }
 
-std::array<Tile::Lender, 4> Tile::nodes_around(int i, int j) const {
-  std::array<Lender, 4> nodes;
-  const int left = std::min(i / spacing * spacing, pixels - spacing),
-            top = std::min(j / spacing * spacing, pixels - spacing);
-  const double x = double(i - left) / spacing, y = double(j - top) / spacing;
-  for (int k = 0; k < 4; ++k)
-    nodes[k] = {&corner(left + k % 2 * spacing, top + k / 2 * spacing),
-                (k % 2 ? x : 1 - x) * (k / 2 ? y : 1 - y)};
-  return nodes;
-}
-
 /// The mean of the shares of those that lie on the same surface; none if these are too few or disagree.
-std::optional<LightShares> Tile::borrowed(const Seen& seen, std::span<const Lender> lenders, double apart) {
+std::optional<LightShares> Tile::borrowed(const Seen& seen, std::span<const Lender> lenders, double least,
+                                          double apart) {
   double weights = 0, low = std::numeric_limits<double>::infinity(), high = 0;
   LightShares sum{0, 0};
   for (const auto& [place, weight] : lenders) {
@@ -82,7 +74,7 @@ std::optional<LightShares> Tile::borrowed(const Seen& seen, std::span<const Lend
     sum.sky += weight * place->shares.sky;
     weights += weight;
   }
-  if (weights < least_weight || high - low > apart * high) return std::nullopt;
+  if (weights < least || high - low > apart * high) return std::nullopt;
   return LightShares{sum.key / weights, sum.sky / weights};
 }
 
@@ -118,7 +110,7 @@ Vector3d Tile::many(int i, int j, const Vector3d& background) const {
       Place place{eye_.look(column_ + i + x, row_ + j + y), {}, {}};
       if (place.look.surface) {
         const Seen& seen = *place.look.surface;
-        const auto blended = borrowed(seen, lenders, std::numeric_limits<double>::infinity());
+        const auto blended = borrowed(seen, lenders, 0.1, std::numeric_limits<double>::infinity());
         place.shares = blended ? *blended : shader_.shares(seen);
         sum += shader_.light(seen, place.shares);
         if (!blended) {

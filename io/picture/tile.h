@@ -37,11 +37,10 @@ class Tile {
     double weight;
   };
   static std::optional<LightShares> borrowed(const Seen& seen, std::span<const Lender> lenders,
-                                             double most_apart);
+                                             double least, double apart);
   const Place& corner(int i, int j) const { return corners_[std::size_t(j) * (pixels + 1) + i]; }
   Place& corner(int i, int j) { return corners_[std::size_t(j) * (pixels + 1) + i]; }
-  std::array<Lender, 4> nodes_around(int i, int j) const;
-  void light_corner(int i, int j);
+  void light_corner(int i, int j, int spacing);
   Eigen::Vector3d many(int i, int j, const Eigen::Vector3d& background) const;
 
   const Eye& eye_;
