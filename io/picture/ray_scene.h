@@ -43,7 +43,8 @@ class RayScene {
   /// The nearest tube before `max_distance`.
   std::optional<LineHit> nearest_line(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                                       double max_distance) const;
-  /// 1 for each direction in which a mesh lies in the way before `max_distance`, else 0. Lines cast no shadow.
+  /// 1 for each direction in which a mesh lies in the way before `max_distance`, else 0. Lines cast no
+  /// shadow.
   BundleValues blocked(const Eigen::Vector3d& origin, const Bundle& directions, float max_distance) const;
 
  private:

@@ -213,8 +213,8 @@ LightShares Shader::shares(const Seen& seen) const {
 }
 
 Vector3d Shader::light(const Seen& seen, const LightShares& shares) const {
-  const Vector3d light = seen.key * shares.key * key_tint + seen.sky * shares.sky * sky_tint +
-                         Vector3d::Constant(seen.fill);
+  const Vector3d light =
+      seen.key * shares.key * key_tint + seen.sky * shares.sky * sky_tint + Vector3d::Constant(seen.fill);
   return light.cwiseProduct(seen.reflected);
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
 
 namespace furrow::io {
@@ -19,11 +20,7 @@ constexpr double most_contrast = 0.06;  // of the light at the corners of a pixe
 bool are_on_one_surface(const Seen& a, const Seen& b) {
   const Vector3d apart = b.point - a.point;
   return a.mesh == b.mesh && a.normal.dot(b.normal) > 0.93 &&
-         std::abs((a.normal + b.normal).dot(apart)) <= 0.4 * apart.norm();
-}
-
-double strength(const Seen& seen, const LightShares& shares) {
-  return seen.key * shares.key + seen.sky * shares.sky + seen.fill;
+         std::abs((a.normal + b.normal).dot(apart)) <= 1.0 * apart.norm();
 }
 
 }  // namespace
@@ -50,37 +47,33 @@ void Tile::light_corner(int i, int j, int spacing) {
   if (!place.look.surface) return;
   const Seen& seen = *place.look.surface;
   const int x = i & spacing, y = j & spacing;
-  const std::array<Lender, 4> around{{{&corner(i - x, j - y), 1},
-                                      {&corner(i + x, j - y), 1},
-                                      {&corner(i - x, j + y), 1},
-                                      {&corner(i + x, j + y), 1}}};
-  const auto blended = spacing < widest ? borrowed(seen, around, 4, most_apart) : std::nullopt;
+  const std::array<const Place*, 4> around{&corner(i - x, j - y), &corner(i + x, j - y),
+                                           &corner(i - x, j + y), &corner(i + x, j + y)};
+  const auto blended = spacing < widest ? mean_shares(seen, around) : std::nullopt;
   place.shares = blended ? *blended : shader_.shares(seen);
   place.light = shader_.light(seen, place.shares);
 }
 
-/// The mean of the shares of those that lie on the same surface; none if these are too few or disagree.
-std::optional<LightShares> Tile::borrowed(const Seen& seen, std::span<const Lender> lenders, double least,
-                                          double apart) {
-  double weights = 0, low = std::numeric_limits<double>::infinity(), high = 0;
-  LightShares sum{0, 0};
-  for (const auto& [place, weight] : lenders) {
+/// None unless all lie on the same surface, and agree.
+std::optional<LightShares> Tile::mean_shares(const Seen& seen, const std::array<const Place*, 4>& around) {
+  double low = std::numeric_limits<double>::infinity(), high = 0;
+  LightShares mean{0, 0};
+  for (const Place* place : around) {
     const auto& other = place->look.surface;
-    if (!(weight > 0) || !other || !are_on_one_surface(seen, *other)) continue;
-    const double light = strength(seen, place->shares);
+    if (!other || !are_on_one_surface(seen, *other)) return std::nullopt;
+    const double light = seen.key * place->shares.key + seen.sky * place->shares.sky + seen.fill;
     low = std::min(low, light);
     high = std::max(high, light);
-    sum.key += weight * place->shares.key;
-    sum.sky += weight * place->shares.sky;
-    weights += weight;
+    mean.key += place->shares.key / 4;
+    mean.sky += place->shares.sky / 4;
   }
-  if (weights < least || high - low > apart * high) return std::nullopt;
-  return LightShares{sum.key / weights, sum.sky / weights};
+  return high - low <= most_apart * high ? std::optional(mean) : std::nullopt;
 }
 
 std::optional<Vector3d> Tile::pixel(int column, int row, const Vector3d& background) const {
   const int i = column - column_, j = row - row_;
-  Vector3d sum = Vector3d::Zero(), low = Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  Vector3d sum = Vector3d::Zero(), low = Vector3d::Constant(std::numeric_limits<double>::infinity()),
+           high = -low;
   bool empty = true;
   for (int k = 0; k < 4; ++k) {
     const auto& light = corner(i + k % 2, j + k / 2).light;
@@ -95,33 +88,44 @@ std::optional<Vector3d> Tile::pixel(int column, int row, const Vector3d& backgro
 }
 
 /// The lines of sight run through side² places in side² columns and side² rows of the pixel, which give the
-/// smoothest edges that so many can. They borrow from the pixel's corners, and from each other.
+/// smoothest edges that so many can.
 Vector3d Tile::many(int i, int j, const Vector3d& background) const {
-  std::vector<Place> found;
-  found.reserve(std::size_t(side_) * side_);
+  std::vector<const Place*> known{&corner(i, j), &corner(i + 1, j), &corner(i, j + 1), &corner(i + 1, j + 1)};
+  std::deque<Place> found;
   const int n = side_;
-  std::vector<Lender> lenders;
-  for (int k = 0; k < 4; ++k) lenders.push_back({&corner(i + k % 2, j + k / 2), 1});
   Vector3d sum = Vector3d::Zero();
   for (int b = 0; b < n; ++b)
     for (int a = 0; a < n; ++a) {
       const double x = (a + (b + 0.5) / n) / n, y = (b + (a + 0.5) / n) / n;
-      for (int k = 0; k < 4; ++k) lenders[k].weight = (k % 2 ? x : 1 - x) * (k / 2 ? y : 1 - y);
-      Place place{eye_.look(column_ + i + x, row_ + j + y), {}, {}};
-      if (place.look.surface) {
-        const Seen& seen = *place.look.surface;
-        const auto blended = borrowed(seen, lenders, 0.1, std::numeric_limits<double>::infinity());
-        place.shares = blended ? *blended : shader_.shares(seen);
-        sum += shader_.light(seen, place.shares);
-        if (!blended) {
-          found.push_back(place);
-          lenders.push_back({&found.back(), 1});
-        }
-      } else {
-        sum += place.look.line.value_or(background);
+      const Look look = eye_.look(column_ + i + x, row_ + j + y);
+      if (!look.surface) {
+        sum += look.line.value_or(background);
+        continue;
       }
+      const Place* place = nearest(*look.surface, known);
+      if (!place) {
+        place = &found.emplace_back(Place{look, shader_.shares(*look.surface), {}});
+        known.push_back(place);
+      }
+      sum += shader_.light(*look.surface, place->shares);
     }
   return sum / (n * n);
+}
+
+/// In space, so that what lies behind an edge does not lend to what lies before it; nullptr: none.
+const Tile::Place* Tile::nearest(const Seen& seen, std::span<const Place* const> known) {
+  const Place* result = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Place* place : known) {
+    const auto& other = place->look.surface;
+    if (!other || !are_on_one_surface(seen, *other)) continue;
+    const double distance = (other->point - seen.point).squaredNorm();
+    if (distance < least) {
+      least = distance;
+      result = place;
+    }
+  }
+  return result;
 }
 
 }  // namespace furrow::io

@@ -32,12 +32,8 @@ class Tile {
     LightShares shares;
     std::optional<Eigen::Vector3d> light;
   };
-  struct Lender {
-    const Place* place;
-    double weight;
-  };
-  static std::optional<LightShares> borrowed(const Seen& seen, std::span<const Lender> lenders,
-                                             double least, double apart);
+  static std::optional<LightShares> mean_shares(const Seen& seen, const std::array<const Place*, 4>& around);
+  static const Place* nearest(const Seen& seen, std::span<const Place* const> known);
   const Place& corner(int i, int j) const { return corners_[std::size_t(j) * (pixels + 1) + i]; }
   Place& corner(int i, int j) { return corners_[std::size_t(j) * (pixels + 1) + i]; }
   void light_corner(int i, int j, int spacing);
