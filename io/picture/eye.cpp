@@ -27,11 +27,16 @@ Look Eye::look(double x, double y) const {
   const double reach =
       hit ? hit->distance + 0.5 * scene_.line_radius.at(hit->distance) + 1.5 * scene_.half_thickness
           : std::numeric_limits<double>::infinity();
-  if (const auto line = rays_.nearest_line(start, ray, reach)) return {{}, shader_.line(ray, *line)};
-  if (!hit) return {};
-  Seen seen = shader_.see(ray, *hit);
-  if (wire_pixels_ > 0 && is_on_wire(x, y, *hit)) seen.reflected *= wire_darkness;
-  return {seen, {}};
+  Look look;
+  look.is_near_thin = rays_.is_line_near(start, ray, reach);
+  if (look.is_near_thin)
+    if (const auto line = rays_.nearest_line(start, ray, reach)) look.line = shader_.line(ray, *line);
+  if (look.line || !hit) return look;
+  look.surface = shader_.see(ray, *hit);
+  const double to_edge = wire_pixels_ > 0 ? to_wire(x, y, *hit) : std::numeric_limits<double>::infinity();
+  if (to_edge < wire_pixels_) look.surface->reflected *= wire_darkness;
+  look.is_near_thin = look.is_near_thin || to_edge < std::max(wire_pixels_, 0.75);
+  return look;
 }
 
 Eye::Sight Eye::sight(double x, double y) const {
@@ -50,19 +55,21 @@ Eigen::Vector2d Eye::place(const Vector3d& p) const {
   return {width_ / 2.0 + scale * c.right.dot(d), height_ / 2.0 - scale * c.up.dot(d)};
 }
 
-/// Whether an edge of the cloth's mesh passes close by. Rims have no edges of their own.
-bool Eye::is_on_wire(double x, double y, const SurfaceHit& hit) const {
+/// The distance to an edge of the cloth's mesh [pixels]. Rims have no edges of their own.
+double Eye::to_wire(double x, double y, const SurfaceHit& hit) const {
   const PreparedMesh& mesh = scene_.meshes[hit.mesh];
-  if (mesh.style != Style::cloth || (mesh.first_rim >= 0 && hit.triangle >= mesh.first_rim)) return false;
+  if (mesh.style != Style::cloth || (mesh.first_rim >= 0 && hit.triangle >= mesh.first_rim))
+    return std::numeric_limits<double>::infinity();
   const auto& t = mesh.triangles[hit.triangle];
   const Eigen::Vector2d p(x, y);
+  double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector2d a = place(mesh.vertices[t[i]]), side = place(mesh.vertices[t[(i + 1) % 3]]) - a;
     const double length2 = side.squaredNorm();
     const double along = length2 > 0 ? std::clamp((p - a).dot(side) / length2, 0.0, 1.0) : 0;
-    if ((a + along * side - p).norm() < wire_pixels_) return true;
+    least = std::min(least, (a + along * side - p).norm());
   }
-  return false;
+  return least;
 }
 
 }  // namespace furrow::io

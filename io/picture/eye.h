@@ -11,6 +11,7 @@ namespace furrow::io {
 
 /// What is seen at a place of the picture: a surface, or else a line with its light, or else nothing.
 struct Look {
+  bool is_near_thin = false;  ///< a line or an edge of the mesh passes by, so near that a pixel may miss it
   std::optional<Seen> surface;
   std::optional<Eigen::Vector3d> line;
 };
@@ -30,7 +31,7 @@ class Eye {
   };
   Sight sight(double x, double y) const;
   Eigen::Vector2d place(const Eigen::Vector3d& p) const;
-  bool is_on_wire(double x, double y, const SurfaceHit& hit) const;
+  double to_wire(double x, double y, const SurfaceHit& hit) const;
 
   const PreparedScene& scene_;
   const RayScene& rays_;

@@ -61,7 +61,9 @@ void add_mesh(RTCDevice device, RTCScene scene, const PreparedMesh& mesh, unsign
   attach(scene, geometry.handle, id);
 }
 
-void add_segments(RTCDevice device, RTCScene scene, const std::vector<PreparedSegment>& segments) {
+/// `wider`: by so many pixels.
+void add_segments(RTCDevice device, RTCScene tree, const PreparedScene& scene, double wider) {
+  const std::vector<PreparedSegment>& segments = scene.segments;
   const Geometry geometry(device, RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE);
   auto* vertices = static_cast<float*>(new_buffer(geometry.handle, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4,
                                                   4 * sizeof(float), 2 * segments.size()));
@@ -69,12 +71,13 @@ void add_segments(RTCDevice device, RTCScene scene, const std::vector<PreparedSe
       new_buffer(geometry.handle, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT, sizeof(unsigned), segments.size()));
   for (std::size_t s = 0; s < segments.size(); ++s) {
     for (int end = 0; end < 2; ++end) {
-      for (int i = 0; i < 3; ++i) *vertices++ = float(segments[s].ends[end][i]);
-      *vertices++ = float(segments[s].radii[end]);
+      const Vector3d& p = segments[s].ends[end];
+      for (int i = 0; i < 3; ++i) *vertices++ = float(p[i]);
+      *vertices++ = float(segments[s].radii[end] + wider * scene.camera.pixel_at(p));
     }
     indices[s] = unsigned(2 * s);
   }
-  attach(scene, geometry.handle, 0);
+  attach(tree, geometry.handle, 0);
 }
 
 RTCRay new_ray(const Vector3d& origin, const Vector3d& direction, double max_distance) {
@@ -113,9 +116,11 @@ RayScene::RayScene(const PreparedScene& scene) : device_(new_device()), surfaces
   }
   rtcCommitScene(surfaces_.get());
   if (!scene.segments.empty()) {
-    lines_.reset(new_scene(device_.get()));
-    add_segments(device_.get(), lines_.get(), scene.segments);
-    rtcCommitScene(lines_.get());
+    for (auto* tree : {&lines_, &wide_lines_}) {
+      tree->reset(new_scene(device_.get()));
+      add_segments(device_.get(), tree->get(), scene, tree == &lines_ ? 0 : 0.75);
+      rtcCommitScene(tree->get());
+    }
   }
   if (rtcGetDeviceError(device_.get()) != RTC_ERROR_NONE) {
     throw std::runtime_error("render: Embree cannot build the scene");
@@ -140,6 +145,10 @@ std::optional<LineHit> RayScene::nearest_line(const Vector3d& origin, const Vect
   const double length = normal.norm();
   return LineHit{int(found->hit.primID), found->ray.tfar,
                  length > 0 ? Vector3d(normal / length) : Vector3d(-direction)};
+}
+
+bool RayScene::is_line_near(const Vector3d& origin, const Vector3d& direction, double max_distance) const {
+  return wide_lines_ && intersect(wide_lines_.get(), new_ray(origin, direction, max_distance));
 }
 
 BundleValues RayScene::blocked(const Vector3d& origin, const Bundle& directions, float max_distance) const {

@@ -74,17 +74,19 @@ std::optional<Vector3d> Tile::pixel(int column, int row, const Vector3d& backgro
   const int i = column - column_, j = row - row_;
   Vector3d sum = Vector3d::Zero(), low = Vector3d::Constant(std::numeric_limits<double>::infinity()),
            high = -low;
-  bool empty = true;
+  bool empty = true, thin = false;
   for (int k = 0; k < 4; ++k) {
-    const auto& light = corner(i + k % 2, j + k / 2).light;
+    const Place& place = corner(i + k % 2, j + k / 2);
+    const auto& light = place.light;
     empty = empty && !light;
+    thin = thin || place.look.is_near_thin;
     const Vector3d& c = light ? *light : background;
     sum += c / 4;
     low = low.cwiseMin(c);
     high = high.cwiseMax(c);
   }
-  if (empty) return std::nullopt;
-  return ((high - low).array() <= most_contrast * high.array()).all() ? sum : many(i, j, background);
+  if (empty && !thin) return std::nullopt;
+  return !thin && ((high - low).array() <= most_contrast * high.array()).all() ? sum : many(i, j, background);
 }
 
 /// The lines of sight run through side² places in side² columns and side² rows of the pixel, which give the
