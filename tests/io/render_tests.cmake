@@ -13,5 +13,6 @@ furrow_add_tests(render io LIBRARIES furrow::io SOURCES
   picture/strip_test.cpp
   picture/stroke_font_test.cpp
   picture/thicken_test.cpp
+  picture/tile_test.cpp
   picture/texture_test.cpp
 )
