@@ -29,11 +29,11 @@ struct Effort {
 Effort effort(Quality quality) {
   switch (quality) {
     case Quality::draft:
-      return {2, 1, 0.10};
+      return {2, 2, 0.10};
     case Quality::normal:
       return {4, 8, 0.30};
     case Quality::fine:
-      return {6, 8, 0.30};
+      return {6, 16, 0.30};
   }
   throw std::invalid_argument("render: quality " + std::to_string(int(quality)) + " is not known");
 }
