@@ -154,7 +154,6 @@ bool RayScene::is_line_near(const Vector3d& origin, const Vector3d& direction, d
 BundleValues RayScene::blocked(const Vector3d& origin, const Bundle& directions, float max_distance) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   RTCRay16 rays{};
   alignas(64) int valid[16];
   for (int i = 0; i < 16; ++i) {
