@@ -155,22 +155,18 @@ BundleValues RayScene::blocked(const Vector3d& origin, const Bundle& directions,
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRay16 rays{};
+  BundleValues::Map(rays.org_x).setConstant(float(origin.x()));
+  BundleValues::Map(rays.org_y).setConstant(float(origin.y()));
+  BundleValues::Map(rays.org_z).setConstant(float(origin.z()));
+  BundleValues::Map(rays.dir_x) = directions.col(0);
+  BundleValues::Map(rays.dir_y) = directions.col(1);
+  BundleValues::Map(rays.dir_z) = directions.col(2);
+  BundleValues::Map(rays.tfar).setConstant(max_distance);
+  std::fill_n(rays.mask, 16, ~0u);
   alignas(64) int valid[16];
-  for (int i = 0; i < 16; ++i) {
-    valid[i] = -1;
-    rays.org_x[i] = float(origin.x());
-    rays.org_y[i] = float(origin.y());
-    rays.org_z[i] = float(origin.z());
-    rays.dir_x[i] = directions(i, 0);
-    rays.dir_y[i] = directions(i, 1);
-    rays.dir_z[i] = directions(i, 2);
-    rays.tfar[i] = max_distance;
-    rays.mask[i] = ~0u;
-  }
+  std::fill_n(valid, 16, -1);
   rtcOccluded16(valid, surfaces_.get(), &context, &rays);
-  BundleValues values;
-  for (int i = 0; i < 16; ++i) values[i] = rays.tfar[i] < 0 ? 1 : 0;
-  return values;
+  return (BundleValues::Map(rays.tfar) < 0).cast<float>();
 }
 
 }  // namespace furrow::io

@@ -19,8 +19,9 @@ constexpr double most_contrast = 0.06;  // of the light at the corners of a pixe
 /// angles to the sum of the normals.
 bool are_on_one_surface(const Seen& a, const Seen& b) {
   const Vector3d apart = b.point - a.point;
-  return a.mesh == b.mesh && a.normal.dot(b.normal) > 0.93 &&
-         std::abs((a.normal + b.normal).dot(apart)) <= 1.0 * apart.norm();
+  constexpr double least_cosine = 0.93, most_aslant = 0.5;
+  return a.mesh == b.mesh && a.normal.dot(b.normal) > least_cosine &&
+         std::abs((a.normal + b.normal).dot(apart)) <= 2 * most_aslant * apart.norm();
 }
 
 }  // namespace
@@ -74,19 +75,19 @@ std::optional<Vector3d> Tile::pixel(int column, int row, const Vector3d& backgro
   const int i = column - column_, j = row - row_;
   Vector3d sum = Vector3d::Zero(), low = Vector3d::Constant(std::numeric_limits<double>::infinity()),
            high = -low;
-  bool empty = true, thin = false;
+  bool empty = true, alike = true;
   for (int k = 0; k < 4; ++k) {
     const Place& place = corner(i + k % 2, j + k / 2);
-    const auto& light = place.light;
-    empty = empty && !light;
-    thin = thin || place.look.is_near_thin;
-    const Vector3d& c = light ? *light : background;
+    empty = empty && !place.light;
+    alike = alike && !place.look.is_near_thin;
+    const Vector3d& c = place.light ? *place.light : background;
     sum += c / 4;
     low = low.cwiseMin(c);
     high = high.cwiseMax(c);
   }
-  if (empty && !thin) return std::nullopt;
-  return !thin && ((high - low).array() <= most_contrast * high.array()).all() ? sum : many(i, j, background);
+  if (empty && alike) return std::nullopt;
+  alike = alike && ((high - low).array() <= most_contrast * high.array()).all();
+  return alike ? sum : many(i, j, background);
 }
 
 /// The lines of sight run through side² places in side² columns and side² rows of the pixel, which give the

@@ -13,9 +13,9 @@ namespace furrow::io {
 
 /// A part of the picture, made for as few rays as it can be. One line of sight runs through each corner of a
 /// pixel. Where the four corners look alike, the pixel is their mean; elsewhere it takes side × side lines of
-/// sight of its own. The shares of light that arrive are found at every fourth corner, and are blended
-/// between where these lie on one smooth surface and agree; elsewhere they are found at the corner itself.
-/// Nothing is left to chance: what a tile shows does not depend on the others.
+/// sight of its own. The shares of light that arrive are found at every eighth corner. Halfway between,
+/// and halfway again, they are the mean of those around, where these lie on one smooth surface and agree;
+/// elsewhere they are found by rays, too. No number is random, and no tile depends on another.
 class Tile {
  public:
   static constexpr int pixels = 64;  ///< of its sides, unless the picture ends before

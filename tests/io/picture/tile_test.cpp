@@ -2,6 +2,7 @@
 #include "io/picture/tile.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
