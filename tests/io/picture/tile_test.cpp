@@ -112,7 +112,7 @@ TEST_CASE("tile: soft shadows and dark folds have no grain, and nothing stands o
 
 TEST_CASE("tile: a line thinner than a pixel is seen wherever it runs") {
   io::RenderScene scene{{square({0, 0, 0}, 0.9, io::body_colour)},
-                        {{{{0.003, -0.5, 0.1}, {0.003, 0.5, 0.1}}, pure_blue}}};
+                        {{{{0.0105, -0.5, 0.1}, {0.0105, 0.5, 0.1}}, pure_blue}}};
   io::RenderOptions options = from_the_front(100, 4);
   options.line_radius_pixels = 0.2;
   options.quality = io::Quality::normal;
