@@ -172,7 +172,7 @@ PreparedMesh prepare_mesh(const RenderMesh& mesh, const Frame& frame, double hal
   return result;
 }
 
-PreparedCamera prepare_camera(const Camera& camera, const Frame& frame) {
+PreparedCamera prepare_camera(const Camera& camera, const Frame& frame, int height) {
   if (!vector(camera.eye).allFinite() || !vector(camera.target).allFinite() || !vector(camera.up).allFinite())
     refuse("camera: a coordinate of eye, target or up is not finite");
   if (!(camera.field_of_view_deg >= 1 && camera.field_of_view_deg <= 150))
@@ -194,6 +194,7 @@ PreparedCamera prepare_camera(const Camera& camera, const Frame& frame) {
   result.parallel = camera.parallel_height.has_value();
   result.slope = result.parallel ? *camera.parallel_height / 2 / frame.diagonal
                                  : std::tan(camera.field_of_view_deg / 2 * std::numbers::pi / 180);
+  result.pixel = 2 * result.slope / height;
   return result;
 }
 
@@ -213,7 +214,7 @@ void check_options(const RenderOptions& options) {
 }
 
 LineRadius line_radius(const Frame& frame, const PreparedCamera& camera, const RenderOptions& options) {
-  const double pixels = options.line_radius_pixels * 2 * camera.slope / options.height;
+  const double pixels = options.line_radius_pixels * camera.pixel;
   if (!options.line_radius) return camera.parallel ? LineRadius{pixels, 0} : LineRadius{0, pixels};
   if (!(*options.line_radius > 0 && *options.line_radius <= frame.diagonal)) {
     refuse("line_radius " + std::to_string(*options.line_radius) + " m is not in (0, the scene's diagonal]");
@@ -224,7 +225,7 @@ LineRadius line_radius(const Frame& frame, const PreparedCamera& camera, const R
 std::vector<PreparedSegment> prepare_lines(const RenderScene& scene, const Frame& frame,
                                            const PreparedCamera& camera, const LineRadius& radius) {
   const auto radius_at = [&](const Vector3d& p, const RenderLine& line) {
-    return line.width * radius.at(std::max(camera.forward.dot(p - camera.eye), 1e-4));
+    return line.width * radius.at(camera.depth(p));
   };
   std::vector<PreparedSegment> segments;
   for (const RenderLine& line : scene.lines) {
@@ -267,7 +268,7 @@ PreparedScene prepare(const RenderScene& scene, const RenderOptions& options) {
   const Frame frame = frame_of(scene);
   PreparedScene result;
   const Camera camera = options.camera ? *options.camera : automatic_camera({&scene, 1}, options);
-  result.camera = prepare_camera(camera, frame);
+  result.camera = prepare_camera(camera, frame, options.height);
   result.line_radius = line_radius(frame, result.camera, options);
   result.segments = prepare_lines(scene, frame, result.camera, result.line_radius);
   result.half_thickness = half_thickness(frame, options);

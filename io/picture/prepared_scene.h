@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -40,7 +41,10 @@ struct PreparedSegment {
 struct PreparedCamera {
   Eigen::Vector3d eye, right, up, forward;
   double slope = 0;       ///< half the picture's height: at depth 1, or everywhere if `parallel`
+  double pixel = 0;       ///< a pixel's side, likewise
   bool parallel = false;  ///< all lines of sight run along `forward`
+  double depth(const Eigen::Vector3d& p) const { return std::max(forward.dot(p - eye), 1e-4); }
+  double pixel_at(const Eigen::Vector3d& p) const { return pixel * (parallel ? 1 : depth(p)); }
 };
 
 /// Radius of the lines' tubes: either the same everywhere, or growing with the depth.

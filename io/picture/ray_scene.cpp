@@ -4,6 +4,7 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 namespace furrow::io {
@@ -60,7 +61,9 @@ void add_mesh(RTCDevice device, RTCScene scene, const PreparedMesh& mesh, unsign
   attach(scene, geometry.handle, id);
 }
 
-void add_segments(RTCDevice device, RTCScene scene, const std::vector<PreparedSegment>& segments) {
+/// `wider`: by so many pixels.
+void add_segments(RTCDevice device, RTCScene tree, const PreparedScene& scene, double wider) {
+  const std::vector<PreparedSegment>& segments = scene.segments;
   const Geometry geometry(device, RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE);
   auto* vertices = static_cast<float*>(new_buffer(geometry.handle, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4,
                                                   4 * sizeof(float), 2 * segments.size()));
@@ -68,12 +71,13 @@ void add_segments(RTCDevice device, RTCScene scene, const std::vector<PreparedSe
       new_buffer(geometry.handle, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT, sizeof(unsigned), segments.size()));
   for (std::size_t s = 0; s < segments.size(); ++s) {
     for (int end = 0; end < 2; ++end) {
-      for (int i = 0; i < 3; ++i) *vertices++ = float(segments[s].ends[end][i]);
-      *vertices++ = float(segments[s].radii[end]);
+      const Vector3d& p = segments[s].ends[end];
+      for (int i = 0; i < 3; ++i) *vertices++ = float(p[i]);
+      *vertices++ = float(segments[s].radii[end] + wider * scene.camera.pixel_at(p));
     }
     indices[s] = unsigned(2 * s);
   }
-  attach(scene, geometry.handle, 0);
+  attach(tree, geometry.handle, 0);
 }
 
 RTCRay new_ray(const Vector3d& origin, const Vector3d& direction, double max_distance) {
@@ -112,9 +116,11 @@ RayScene::RayScene(const PreparedScene& scene) : device_(new_device()), surfaces
   }
   rtcCommitScene(surfaces_.get());
   if (!scene.segments.empty()) {
-    lines_.reset(new_scene(device_.get()));
-    add_segments(device_.get(), lines_.get(), scene.segments);
-    rtcCommitScene(lines_.get());
+    for (auto* tree : {&lines_, &wide_lines_}) {
+      tree->reset(new_scene(device_.get()));
+      add_segments(device_.get(), tree->get(), scene, tree == &lines_ ? 0 : 0.75);
+      rtcCommitScene(tree->get());
+    }
   }
   if (rtcGetDeviceError(device_.get()) != RTC_ERROR_NONE) {
     throw std::runtime_error("render: Embree cannot build the scene");
@@ -141,12 +147,26 @@ std::optional<LineHit> RayScene::nearest_line(const Vector3d& origin, const Vect
                  length > 0 ? Vector3d(normal / length) : Vector3d(-direction)};
 }
 
-bool RayScene::is_blocked(const Vector3d& origin, const Vector3d& direction, double max_distance) const {
+bool RayScene::is_line_near(const Vector3d& origin, const Vector3d& direction, double max_distance) const {
+  return wide_lines_ && intersect(wide_lines_.get(), new_ray(origin, direction, max_distance));
+}
+
+BundleValues RayScene::blocked(const Vector3d& origin, const Bundle& directions, float max_distance) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  RTCRay ray = new_ray(origin, direction, max_distance);
-  rtcOccluded1(surfaces_.get(), &context, &ray);
-  return ray.tfar < 0;
+  RTCRay16 rays{};
+  BundleValues::Map(rays.org_x).setConstant(float(origin.x()));
+  BundleValues::Map(rays.org_y).setConstant(float(origin.y()));
+  BundleValues::Map(rays.org_z).setConstant(float(origin.z()));
+  BundleValues::Map(rays.dir_x) = directions.col(0);
+  BundleValues::Map(rays.dir_y) = directions.col(1);
+  BundleValues::Map(rays.dir_z) = directions.col(2);
+  BundleValues::Map(rays.tfar).setConstant(max_distance);
+  std::fill_n(rays.mask, 16, ~0u);
+  alignas(64) int valid[16];
+  std::fill_n(valid, 16, -1);
+  rtcOccluded16(valid, surfaces_.get(), &context, &rays);
+  return (BundleValues::Map(rays.tfar) < 0).cast<float>();
 }
 
 }  // namespace furrow::io

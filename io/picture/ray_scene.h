@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <Eigen/Core>
-#include <limits>
 #include <memory>
 #include <optional>
 
@@ -27,7 +26,11 @@ struct LineHit {
   Eigen::Vector3d normal;
 };
 
-/// The rays' view of a prepared scene: two Embree trees, one of the meshes, one of the lines' tubes. One
+/// Directions that are asked for together, one a row: rays that run alike share their way through the tree.
+using Bundle = Eigen::Matrix<float, 16, 3>;
+using BundleValues = Eigen::Array<float, 16, 1>;
+
+/// The rays' view of a prepared scene: Embree trees of the meshes and of the lines' tubes. One
 /// thread builds the trees, so that the same scene gives the same hits. Directions are of unit length; all
 /// coordinates are finite (Debian's Embree aborts on a NaN). Several threads may query at once.
 class RayScene {
@@ -40,9 +43,13 @@ class RayScene {
   /// The nearest tube before `max_distance`.
   std::optional<LineHit> nearest_line(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                                       double max_distance) const;
-  /// Whether a mesh lies in the way before `max_distance`. Lines cast no shadow.
-  bool is_blocked(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
-                  double max_distance = std::numeric_limits<float>::infinity()) const;
+  /// Whether one passes by at less than 3/4 of a pixel: so it is at a corner of each pixel that a line
+  /// covers.
+  bool is_line_near(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                    double max_distance) const;
+  /// 1 for each direction in which a mesh lies in the way before `max_distance`, else 0. Lines cast no
+  /// shadow.
+  BundleValues blocked(const Eigen::Vector3d& origin, const Bundle& directions, float max_distance) const;
 
  private:
   struct Release {
@@ -51,7 +58,7 @@ class RayScene {
   };
   std::unique_ptr<RTCDeviceTy, Release> device_;
   std::unique_ptr<RTCSceneTy, Release> surfaces_;
-  std::unique_ptr<RTCSceneTy, Release> lines_;  ///< empty without segments
+  std::unique_ptr<RTCSceneTy, Release> lines_, wide_lines_;  ///< empty without segments
 };
 
 }  // namespace furrow::io

@@ -3,10 +3,11 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
-
-#include "io/picture/blue_noise.h"
+#include <utility>
 
 namespace furrow::io {
 namespace {
@@ -25,19 +26,34 @@ constexpr double cavity = 0.15;  // how much darker a sharp valley is painted, a
 constexpr double sheen = 0.12;   // of the light, where cloth is seen along its surface
 const Vector3d back_tint(0.66, 0.54, 0.48);
 
-/// A point of a lattice bent to the unit disk, evenly.
-Eigen::Vector2d disk_point(const Lattice& lattice, int i, const PixelShift& shift) {
-  const Eigen::Vector2d p = lattice.point(i, shift.u, shift.v);
-  const double radius = std::sqrt(p.x()), angle = 2 * std::numbers::pi * p.y();
-  return {radius * std::cos(angle), radius * std::sin(angle)};
+/// Points that fill the unit disk evenly, in bundles of 16 that lie together: a sunflower's seeds, by angle.
+std::vector<std::vector<Eigen::Vector2d>> disk_points(int bundles) {
+  const int n = 16 * bundles;
+  std::vector<std::pair<double, double>> seeds;  // angle in turns, radius
+  for (int i = 0; i < n; ++i) {
+    const double turns = i * (std::numbers::phi - 1);
+    seeds.emplace_back(turns - std::floor(turns), std::sqrt((i + 0.5) / n));
+  }
+  std::sort(seeds.begin(), seeds.end());
+  std::vector<std::vector<Eigen::Vector2d>> points(bundles);
+  for (int i = 0; i < n; ++i) {
+    const double angle = 2 * std::numbers::pi * seeds[i].first;
+    points[i / 16].push_back(seeds[i].second * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
+  }
+  return points;
 }
 
-/// Two unit vectors that are orthogonal to the unit vector n and to each other.
-std::array<Vector3d, 2> across(const Vector3d& n) {
-  const Vector3d axis = std::abs(n.x()) < 0.7 ? Vector3d::UnitX() : Vector3d::UnitY();
-  const Vector3d u = axis.cross(n).normalized();
-  return {u, n.cross(u)};
+/// An orthonormal frame whose z axis is the unit vector n, which changes slowly with it (Duff et al. 2017)
+/// but where n is opposite to `back`. `camera`: rows right, up, back.
+Eigen::Matrix3d frame_about(const Vector3d& normal, const Eigen::Matrix3d& camera) {
+  const Vector3d n = camera * normal;
+  const double a = 1 / std::max(1 + n.z(), 1e-9), b = -n.x() * n.y() * a;
+  Eigen::Matrix3d frame;
+  frame << 1 - n.x() * n.x() * a, b, n.x(), b, 1 - n.y() * n.y() * a, n.y(), -n.x(), -n.y(), n.z();
+  return camera.transpose() * frame;
 }
+
+double brightness(double height) { return 0.56 + 0.44 * height; }
 
 /// The point of a curved surface above the hit on its flat triangle: the corners' tangent planes blended.
 /// Rays that leave from it do not see the facets at the edge of the shadow (Hanika 2021, "Hacking the shadow
@@ -86,12 +102,12 @@ Vector3d painted(const PreparedMesh& mesh, const SurfaceHit& hit, const std::arr
              : colour;
 }
 
-/// What is seen at a hit, turned to the eye.
-struct Seen {
+/// A surface at a hit, turned to the eye.
+struct Surface {
   Vector3d point, normal, colour;
 };
 
-Seen see(const PreparedMesh& mesh, const SurfaceHit& hit, const Vector3d& direction) {
+Surface surface_at(const PreparedMesh& mesh, const SurfaceHit& hit, const Vector3d& direction) {
   const auto& t = mesh.triangles[hit.triangle];
   const auto& n = mesh.corners.empty() ? t : mesh.corners[hit.triangle];
   const std::array<double, 3> weights{std::max(0.0, 1 - hit.u - hit.v), hit.u, hit.v};
@@ -124,65 +140,83 @@ Seen see(const PreparedMesh& mesh, const SurfaceHit& hit, const Vector3d& direct
 
 }  // namespace
 
-PixelShift pixel_shift(int column, int row) {
-  return {blue_noise(column, row), blue_noise(column + 37, row + 23)};  // far apart in the tile
-}
-
-Shader::Shader(const PreparedScene& scene, const RayScene& rays, int samples, int sky_rays, double key_radius)
-    : scene_(scene),
-      rays_(rays),
-      sky_rays_(sky_rays),
-      key_radius_(key_radius),
-      key_lattice_(samples),
-      sky_lattice_(samples * sky_rays) {
+Shader::Shader(const PreparedScene& scene, const RayScene& rays, int bundles, double key_radius)
+    : scene_(scene), rays_(rays), key_radius_(key_radius) {
   const PreparedCamera& c = scene.camera;
-  key_direction_ = (-0.75 * c.right + 0.58 * c.up - 0.36 * c.forward).normalized();
-  key_across_ = across(key_direction_);
-  fill_direction_ = (0.9 * c.right - 0.15 * c.up - 0.25 * c.forward).normalized();
-}
-
-/// Where all of the light is above the horizon, what it gives without anything in the way is known; the rays
-/// only tell what is lost, so that what is lit has no grain.
-double Shader::key_light(const Vector3d& p, const Vector3d& normal, int sample,
-                         const PixelShift& shift) const {
-  const double height = normal.dot(key_direction_), hypotenuse = std::sqrt(1 + key_radius_ * key_radius_);
-  const double horizon = key_radius_ / hypotenuse;  // sine of half the light's angle
-  if (height < -horizon) return 0;
-  const Eigen::Vector2d q = key_radius_ * disk_point(key_lattice_, sample, shift);
-  const Vector3d d = (q.x() * key_across_[0] + q.y() * key_across_[1] + key_direction_).normalized();
-  const double cosine = std::max(0.0, normal.dot(d));
-  if (height < horizon) return cosine > 0 && !rays_.is_blocked(p, d) ? cosine : 0;
-  // The mean of 1 / sqrt(1 + r^2) over a disk of radius R is 2 / (sqrt(1 + R^2) + 1).
-  return height * 2 / (hypotenuse + 1) - (rays_.is_blocked(p, d) ? cosine : 0);
-}
-
-/// The same: the mean of d over the hemisphere, weighted by the cosine, is 2/3 of the normal.
-double Shader::sky_light(const Vector3d& p, const Vector3d& normal, int sample,
-                         const PixelShift& shift) const {
-  const auto brightness = [&](const Vector3d& d) { return 0.56 + 0.44 * d.dot(scene_.camera.up); };
-  const std::array<Vector3d, 2> uv = across(normal);
-  double lost = 0;
-  for (int i = 0; i < sky_rays_; ++i) {
-    const Eigen::Vector2d q = disk_point(sky_lattice_, sample * sky_rays_ + i, {shift.v, shift.u});
-    const Vector3d d = q.x() * uv[0] + q.y() * uv[1] + std::sqrt(std::max(0.0, 1 - q.squaredNorm())) * normal;
-    if (rays_.is_blocked(p, d, sky_distance)) lost += (1 - bounce) * brightness(d);
+  camera_ << c.right.transpose(), c.up.transpose(), -c.forward.transpose();
+  key_direction_ = camera_.transpose() * Vector3d(-0.75, 0.58, 0.36).normalized();
+  fill_direction_ = camera_.transpose() * Vector3d(0.9, -0.15, 0.25).normalized();
+  const Eigen::Matrix3d key_frame = frame_about(key_direction_, camera_);
+  for (const auto& points : disk_points(bundles)) {
+    Bundle key_bundle, sky_bundle;
+    for (int i = 0; i < 16; ++i) {
+      const Eigen::Vector2d& q = points[i];
+      const Vector3d to_key(key_radius * q.x(), key_radius * q.y(), 1);
+      key_bundle.row(i) = (key_frame * to_key.normalized()).cast<float>();
+      sky_bundle.row(i) << float(q.x()), float(q.y()), float(std::sqrt(1 - q.squaredNorm()));
+    }
+    key_rays_.push_back(key_bundle);
+    sky_rays_.push_back(sky_bundle);
   }
-  return brightness(2.0 / 3 * normal) - lost / sky_rays_;
 }
 
-Vector3d Shader::surface(const Vector3d& direction, const SurfaceHit& hit, int sample,
-                         const PixelShift& shift) const {
+/// The mean of the cosine over a round light. The mean of 1 / sqrt(1 + r^2) over a disk of radius R is
+/// 2 / (sqrt(1 + R^2) + 1), and of the part of x + t above 0 over the unit disk what stands below.
+double Shader::key_light(const Vector3d& normal) const {
+  const double height = normal.dot(key_direction_), mean = 2 / (std::sqrt(1 + key_radius_ * key_radius_) + 1);
+  const double reach = key_radius_ * std::sqrt(std::max(0.0, 1 - height * height));
+  if (std::abs(height) >= reach) return std::max(0.0, height) * mean;
+  const double t = height / reach, s = std::sqrt(1 - t * t);
+  return reach * mean * (t * (std::numbers::pi / 2 + std::asin(t)) + s * (2 + t * t) / 3) / std::numbers::pi;
+}
+
+/// The mean of a direction over the hemisphere, weighted by the cosine, is 2/3 of the normal.
+Seen Shader::see(const Vector3d& direction, const SurfaceHit& hit) const {
   const PreparedMesh& mesh = scene_.meshes[hit.mesh];
-  const Seen seen = see(mesh, hit, direction);
-  const Vector3d light = key * key_light(seen.point, seen.normal, sample, shift) * key_tint +
-                         sky * sky_light(seen.point, seen.normal, sample, shift) * sky_tint +
-                         Vector3d::Constant(fill_light * std::max(0.0, seen.normal.dot(fill_direction_)));
-  Vector3d reflected = seen.colour;
+  const Surface surface = surface_at(mesh, hit, direction);
+  const Vector3d& n = surface.normal;
+  Vector3d reflected = surface.colour;
   if (mesh.style == Style::cloth) {
-    const double grazing = 1 - std::max(0.0, -seen.normal.dot(direction));
-    reflected += sheen * std::pow(grazing, 4) * (Vector3d::Ones() - seen.colour);
+    const double grazing = 1 - std::max(0.0, -n.dot(direction));
+    reflected += sheen * grazing * grazing * grazing * grazing * (Vector3d::Ones() - surface.colour);
   }
-  return light.cwiseProduct(reflected);
+  return {hit.mesh,
+          surface.point,
+          n,
+          reflected,
+          key * key_light(n),
+          sky * brightness(2.0 / 3 * n.dot(scene_.camera.up)),
+          fill_light * std::max(0.0, n.dot(fill_direction_))};
+}
+
+LightShares Shader::shares(const Seen& seen) const {
+  const Eigen::Vector3f n = seen.normal.cast<float>(), up = scene_.camera.up.cast<float>();
+  constexpr float least = 1e-3f;  // where the light has set, none of it is hidden
+  float all = least, lost = 0;
+  for (const Bundle& bundle : key_rays_) {
+    const BundleValues cosines = (bundle * n).array().max(0);
+    const float sum = cosines.sum();
+    if (!(sum > 0)) continue;
+    all += sum;
+    lost += (cosines * rays_.blocked(seen.point, bundle, std::numeric_limits<float>::infinity())).sum();
+  }
+  LightShares shares{1 - lost / all, 1};
+  const Eigen::Matrix3f frame = frame_about(seen.normal, camera_).cast<float>();
+  all = lost = 0;
+  for (const Bundle& local : sky_rays_) {
+    const Bundle bundle = local * frame.transpose();
+    const BundleValues light = 0.56f + 0.44f * (bundle * up).array();
+    all += light.sum();
+    lost += (light * rays_.blocked(seen.point, bundle, sky_distance)).sum();
+  }
+  shares.sky = 1 - (1 - bounce) * lost / all;
+  return shares;
+}
+
+Vector3d Shader::light(const Seen& seen, const LightShares& shares) const {
+  const Vector3d light =
+      seen.key * shares.key * key_tint + seen.sky * shares.sky * sky_tint + Vector3d::Constant(seen.fill);
+  return light.cwiseProduct(seen.reflected);
 }
 
 Vector3d Shader::line(const Vector3d& direction, const LineHit& hit) const {
