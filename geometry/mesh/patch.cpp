@@ -12,15 +12,16 @@ namespace furrow::geometry {
 namespace {
 
 /// Elements of one mesh, and what they are in the other.
-using Pairs = std::tuple<std::vector<std::pair<Vertex, Vertex>>, std::vector<std::pair<Edge, Edge>>,
-                         std::vector<std::pair<Halfedge, Halfedge>>, std::vector<std::pair<Face, Face>>>;
+using Correspondence =
+    std::tuple<std::vector<std::pair<Vertex, Vertex>>, std::vector<std::pair<Edge, Edge>>,
+               std::vector<std::pair<Halfedge, Halfedge>>, std::vector<std::pair<Face, Face>>>;
 
 template <class Key>
-auto& of(Pairs& pairs) {
+auto& of(Correspondence& pairs) {
   return std::get<std::vector<std::pair<Key, Key>>>(pairs);
 }
 
-void copy_attributes(const Mesh& from, Mesh& to, Pairs& pairs) {
+void copy_attributes(const Mesh& from, Mesh& to, Correspondence& pairs) {
   const auto copy = [&]<class A>(const A& attribute) {
     const auto source = find_map(from, attribute);
     if (!source) return;
@@ -94,7 +95,7 @@ Patch cut_patch(const Mesh& whole, std::vector<Face> faces) {
     }
   sort_once(patch.vertices), sort_once(patch.edges);
   Mesh& mesh = patch.mesh;
-  Pairs pairs;
+  Correspondence pairs;
   for (Vertex v : patch.vertices) of<Vertex>(pairs).push_back({v, mesh.add_vertex()});
   add_edges(whole, patch);
   const auto side = [&](Halfedge h) { return same_side(h, local(patch.edges, whole.edge(h))); };
@@ -134,7 +135,7 @@ void put_back(const Patch& patch, Mesh& whole) {
   while (edges.size() < mesh.num_edges()) edges.push_back(whole.edge(whole.add_edge()));
   while (faces.size() < mesh.num_faces()) faces.push_back(whole.add_face());
   const auto side = [&](Halfedge h) { return same_side(h, edges[mesh.edge(h).idx()]); };
-  Pairs pairs;
+  Correspondence pairs;
   for (Halfedge h : mesh.halfedges()) {
     if (outer[h.idx()]) continue;
     whole.set_target(side(h), vertices[mesh.target(h).idx()]);
