@@ -118,7 +118,7 @@ RayScene::RayScene(const PreparedScene& scene) : device_(new_device()), surfaces
   if (!scene.segments.empty()) {
     for (auto* tree : {&lines_, &wide_lines_}) {
       tree->reset(new_scene(device_.get()));
-      add_segments(device_.get(), tree->get(), scene, tree == &lines_ ? 0 : 0.75);
+      add_segments(device_.get(), tree->get(), scene, tree == &lines_ ? 0 : thin_reach);
       rtcCommitScene(tree->get());
     }
   }

@@ -30,6 +30,9 @@ struct LineHit {
 using Bundle = Eigen::Matrix<float, 16, 3>;
 using BundleValues = Eigen::Array<float, 16, 1>;
 
+/// A line or an edge of the mesh that passes a pixel's corner this near may be missed by all four [pixels].
+constexpr double thin_reach = 0.75;
+
 /// The rays' view of a prepared scene: Embree trees of the meshes and of the lines' tubes. One
 /// thread builds the trees, so that the same scene gives the same hits. Directions are of unit length; all
 /// coordinates are finite (Debian's Embree aborts on a NaN). Several threads may query at once.
@@ -43,8 +46,7 @@ class RayScene {
   /// The nearest tube before `max_distance`.
   std::optional<LineHit> nearest_line(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                                       double max_distance) const;
-  /// Whether one passes by at less than 3/4 of a pixel: so it is at a corner of each pixel that a line
-  /// covers.
+  /// Whether one passes by at less than thin_reach: so it is at a corner of each pixel that a line covers.
   bool is_line_near(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                     double max_distance) const;
   /// 1 for each direction in which a mesh lies in the way before `max_distance`, else 0. Lines cast no

@@ -53,7 +53,8 @@ Eigen::Matrix3d frame_about(const Vector3d& normal, const Eigen::Matrix3d& camer
   return camera.transpose() * frame;
 }
 
-double brightness(double height) { return 0.56 + 0.44 * height; }
+/// Of the sky's light: what comes from a level direction, and by how much more comes from straight above.
+constexpr double level_sky = 0.56, sky_rise = 0.44;
 
 /// The point of a curved surface above the hit on its flat triangle: the corners' tangent planes blended.
 /// Rays that leave from it do not see the facets at the edge of the shadow (Hanika 2021, "Hacking the shadow
@@ -185,7 +186,7 @@ Seen Shader::see(const Vector3d& direction, const SurfaceHit& hit) const {
           n,
           reflected,
           key * key_light(n),
-          sky * brightness(2.0 / 3 * n.dot(scene_.camera.up)),
+          sky * (level_sky + sky_rise * (2.0 / 3 * n.dot(scene_.camera.up))),
           fill_light * std::max(0.0, n.dot(fill_direction_))};
 }
 
@@ -205,7 +206,7 @@ LightShares Shader::shares(const Seen& seen) const {
   all = lost = 0;
   for (const Bundle& local : sky_rays_) {
     const Bundle bundle = local * frame.transpose();
-    const BundleValues light = 0.56f + 0.44f * (bundle * up).array();
+    const BundleValues light = float(level_sky) + float(sky_rise) * (bundle * up).array();
     all += light.sum();
     lost += (light * rays_.blocked(seen.point, bundle, sky_distance)).sum();
   }

@@ -80,6 +80,34 @@ TEST_CASE("settle: a cloth over a ball rests in the friction cone, the same bits
   CHECK(run(3) == one);
 }
 
+TEST_CASE("settle: a banner of so many particles that factors are of single precision hangs in balance",
+          "[release]") {
+  const auto run = [&](int threads) {
+    Cloth cloth = membrane_sheet(102);
+    std::vector<int> top;
+    for (std::size_t i = 0; i < cloth.particles.size(); ++i) {
+      Vec3& x = cloth.particles.x[i];
+      x = Vec3(x.x(), x.z(), 0);
+      top.push_back(int(i));
+    }
+    std::erase_if(top,
+                  [&](int i) { return cloth.particles.x[i].y() < cloth.particles.x[top[0]].y() - 1e-9; });
+    pin(cloth.particles, top);
+    Noise noise(5);
+    for (std::size_t i = 0; i < cloth.particles.size(); ++i)
+      if (cloth.particles.inv_mass[i] > 0) cloth.particles.x[i] += 1e-4 * noise.vector();
+    SettleOptions o;
+    o.threads = threads;
+    const SettleReport report = settle(cloth, nullptr, o);
+    CHECK(report.converged);
+    CHECK(residual_force(cloth, o.gravity, nullptr, o.friction, o.gap) <= o.tolerance);
+    return cloth.particles.x;
+  };
+  const auto one = run(1);
+  REQUIRE(one.size() > 10000);
+  CHECK(run(2) == one);
+}
+
 TEST_CASE("settle: cloth between two limbs rests where there is less room than the gap") {
   struct Limbs : Collider {  // 2 mm apart at the origin: the distance has a ridge between them
     Sphere left{Vec3(-0.051, 0, 0), 0.05}, right{Vec3(0.051, 0, 0), 0.05};
