@@ -35,7 +35,7 @@ Look Eye::look(double x, double y) const {
   look.surface = shader_.see(ray, *hit);
   const double to_edge = wire_pixels_ > 0 ? to_wire(x, y, *hit) : std::numeric_limits<double>::infinity();
   if (to_edge < wire_pixels_) look.surface->reflected *= wire_darkness;
-  look.is_near_thin = look.is_near_thin || to_edge < std::max(wire_pixels_, 0.75);
+  look.is_near_thin = look.is_near_thin || to_edge < std::max(wire_pixels_, thin_reach);
   return look;
 }
 

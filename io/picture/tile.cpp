@@ -24,6 +24,12 @@ bool are_on_one_surface(const Seen& a, const Seen& b) {
          std::abs((a.normal + b.normal).dot(apart)) <= 2 * most_aslant * apart.norm();
 }
 
+/// Whether two looks meet the same surface, or none. Else a border runs between them, which nothing else
+/// shows where cloth lies before cloth of its colour.
+bool meet_alike(const Look& a, const Look& b) {
+  return bool(a.surface) == bool(b.surface) && (!a.surface || are_on_one_surface(*a.surface, *b.surface));
+}
+
 }  // namespace
 
 Tile::Tile(const Eye& eye, const Shader& shader, int side, int column, int row)
@@ -79,7 +85,7 @@ std::optional<Vector3d> Tile::pixel(int column, int row, const Vector3d& backgro
   for (int k = 0; k < 4; ++k) {
     const Place& place = corner(i + k % 2, j + k / 2);
     empty = empty && !place.light;
-    alike = alike && !place.look.is_near_thin;
+    alike = alike && !place.look.is_near_thin && meet_alike(corner(i, j).look, place.look);
     const Vector3d& c = place.light ? *place.light : background;
     sum += c / 4;
     low = low.cwiseMin(c);

@@ -12,10 +12,11 @@
 namespace furrow::io {
 
 /// A part of the picture, made for as few rays as it can be. One line of sight runs through each corner of a
-/// pixel. Where the four corners look alike, the pixel is their mean; elsewhere it takes side × side lines of
-/// sight of its own. The shares of light that arrive are found at every eighth corner. Halfway between,
-/// and halfway again, they are the mean of those around, where these lie on one smooth surface and agree;
-/// elsewhere they are found by rays, too. No number is random, and no tile depends on another.
+/// pixel. Where the four corners look alike and no border runs between them, the pixel is their mean;
+/// elsewhere it takes side × side lines of sight of its own. The shares of light that arrive are found at
+/// every eighth corner. Halfway between, and halfway again, they are the mean of those around, where these
+/// lie on one smooth surface and agree; elsewhere they are found by rays, too. No number is random, and no
+/// tile depends on another.
 class Tile {
  public:
   static constexpr int pixels = 64;  ///< of its sides, unless the picture ends before

@@ -124,6 +124,33 @@ TEST_CASE("tile: a line thinner than a pixel is seen wherever it runs") {
   }
 }
 
+/// How sharply neighbours above and below differ from a pixel of a strip that lies 0.2 before a sheet of its
+/// colour, at its most.
+int sharpest_of_strip(double height) {
+  io::RenderScene scene{{square({0, 0, 0}, 1, io::cloth_colour)}, {}};
+  io::RenderMesh& cloth = scene.meshes[0];
+  for (const auto& [x, y] : {std::pair(-0.4, 0.0), {0.4, 0.0}, {0.4, 0.02}, {-0.4, 0.02}})
+    cloth.vertices.push_back({x, y + height, 0.2});
+  cloth.triangles.insert(cloth.triangles.end(), {{4, 5, 6}, {4, 6, 7}});
+  cloth.style = io::Style::cloth;
+  io::RenderOptions options = from_the_front(240, 4);
+  options.thickness = 0.006;
+  options.quality = io::Quality::normal;
+  const io::Image image = io::render(scene, options);
+  int sharpest = 0;
+  for (int row = 110; row < 130; ++row)
+    sharpest = std::max(sharpest, std::abs(2 * pixel(image, 120, row)[1] - pixel(image, 120, row - 1)[1] -
+                                           pixel(image, 120, row + 1)[1]));
+  return sharpest;
+}
+
+TEST_CASE("tile: the border of cloth before cloth of its colour is seen wherever it runs", "[release]") {
+  for (int i = 0; i < 8; ++i) {
+    CAPTURE(i);
+    CHECK(sharpest_of_strip(0.001 * i) >= 4);
+  }
+}
+
 TEST_CASE("shade: of a light that is partly below the horizon comes what stands above") {
   const io::RenderOptions options = from_the_front(60, 4);
   const Vector3d key = Vector3d(-0.75, 0.58, 0.36).normalized();
