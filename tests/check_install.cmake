@@ -21,7 +21,8 @@ function(must_be_there)
   endforeach()
 endfunction()
 must(${CMAKE_COMMAND} --install ${BINARY} --prefix ${prefix})
-must(${CMAKE_COMMAND} -G Ninja -S ${ROOT}/examples -B ${examples} -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_BUILD_TYPE=Release)
+set(quickly -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0)  # what is linked and run, not measured
+must(${CMAKE_COMMAND} -G Ninja -S ${ROOT}/examples -B ${examples} -DCMAKE_PREFIX_PATH=${prefix} ${quickly})
 must(${CMAKE_COMMAND} --build ${examples} -j 2)
 must(${examples}/falling_spring)
 must(${examples}/own_force)
@@ -118,10 +119,9 @@ if(result EQUAL 0)
   message(FATAL_ERROR "a component that does not exist was found:\n${output}")
 endif()
 
-# Its own build: quickly made, for it is linked and run, not measured. Its tests are configured there, too; what they include
-# is held by the test `layers`.
+# Its own build. Its tests are configured there, too; what they include is held by the test `layers`.
 must(${CMAKE_COMMAND} -G Ninja -S ${ROOT} -B ${alone}/build -DFURROW_COMPONENTS=physics ${hidden}
-     -DFURROW_UNITY=ON -DFURROW_UNITY_SIZE=40 -DCMAKE_BUILD_TYPE=Debug "-DCMAKE_CXX_FLAGS_DEBUG=-O0")
+     -DFURROW_UNITY=ON -DFURROW_UNITY_SIZE=40 ${quickly})
 must(${CMAKE_COMMAND} --build ${alone}/build --target physics -j 2)
 must(${CMAKE_COMMAND} --build ${alone}/build --target test_physics test_field test_pairs -- -n)
 must(${CMAKE_COMMAND} --install ${alone}/build --prefix ${alone}/installed)

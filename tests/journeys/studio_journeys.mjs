@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Ways through the studio in a real browser (tests/studio/browser.mjs). Two lead from `furrow studio` with no argument to
-// a drawing that is opened again: with a skirt of the gallery, and with a dress in centimetres, z up, and its body, as
-// files of one's own. In each state all buttons are pressed, and the picture is looked at. The third is a new user's
-// first minute: five ridges, drawn by mouse, that stand at rest.
+// a drawing that is opened again: with a skirt of the gallery, where in each state all buttons are pressed and the log is
+// replayed, and with a dress in centimetres, z up, and its body, as files of one's own, where they are pressed once lines
+// are drawn. In each the picture is looked at. The third is a new user's first minute: five ridges, drawn by mouse, that
+// stand at rest.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
@@ -132,22 +133,22 @@ async function play(seen, seconds) {
 
 const isAtRest = async (seen) => until("it tells how the drape ended", async () => /at rest/.test(await seen.words()));
 
-/** From the open garment to the drawing that is opened again. `strokes`: shares of the canvas. `keeps`: else
- * *Keep* is cancelled on its way. */
-async function journey(first, seen, { folder, strokes, keeps }) {
+/** From the open garment to the drawing that is opened again. `strokes`: shares of the canvas. `isWhole`: all buttons are
+ * pressed in all states, lines are kept, and the log is replayed; else *Keep* is cancelled on its way. */
+async function journey(first, seen, { folder, strokes, isWhole }) {
   const { tab } = seen, shot = (name) => seen.shot(`${folder}-${name}`);
   assert.equal(await tab.locator("h1").innerText(), folder);
   await still(seen);
   assert.ok((await shareOfCloth(seen)) > 0.05, "the cloth is seen");
   await shot("1-open");
-  await pressAll(seen, `${folder}, bare`, "Drape", "Play");
+  if (isWhole) await pressAll(seen, `${folder}, bare`, "Drape", "Play");
   await draw(seen, strokes[0], 1);
   await draw(seen, strokes[1], 2);
   await shot("2-drawn");
   await pressAll(seen, `${folder}, drawn`, "Keep", "Drape", "Play", "Look");
   let step = await seen.step();
   await tab.keyboard.press("k");
-  if (keeps) {
+  if (isWhole) {
     await done(seen, ++step);
     await until("the verdicts", async () => (await tab.locator(".verdicts li").count()) === 2);
     await fromTheFront(seen);
@@ -169,7 +170,7 @@ async function journey(first, seen, { folder, strokes, keeps }) {
   await draw(seen, strokes[2], 1);
   ++step;
   await shot("5-played");
-  await pressAll(seen, `${folder}, played`, "Keep", "Drape", "Play", "Undo", "Moving GLB", "PC2");
+  if (isWhole) await pressAll(seen, `${folder}, played`, "Keep", "Drape", "Play", "Undo", "Moving GLB", "PC2");
   for (const back of [1, 2]) {
     await tab.getByRole("button", { name: "Undo", exact: true }).click();
     await seen.at(step - back);
@@ -185,9 +186,10 @@ async function journey(first, seen, { folder, strokes, keeps }) {
   await end(first.program);
   await tab.close();
   await openAgain(folder, step);
+  if (isWhole) replayBesideOnesOwn(folder);
 }
 
-/** The drawing as it was left; its replay ends in the same bits, and touches nothing of the user's. */
+/** The drawing as it was left. */
 async function openAgain(folder, step) {
   const again = await studio(folder), seen = await open(again.url);
   assert.equal(await seen.step(), step);
@@ -201,6 +203,10 @@ async function openAgain(folder, step) {
   assert.deepEqual(seen.faults, []);
   await end(again.program);
   await seen.tab.close();
+}
+
+/** The replay of its log ends in the same bits, and touches nothing of the user's. */
+function replayBesideOnesOwn(folder) {
   mkdirSync(join(scratch, folder, "replay"));
   writeFileSync(join(scratch, folder, "replay", "mine.txt"), "mine");
   replay(folder);
@@ -224,7 +230,7 @@ async function fromTheGallery() {
     assert.ok(await dialog.getByRole("button", { name: "Open", exact: true }).isDisabled(), "nothing is chosen");
   });
   const strokes = [[[0.53, 0.3], [0.53, 0.55], [0.54, 0.84]], [[0.42, 0.32], [0.4, 0.84]], [[0.48, 0.4], [0.48, 0.8]]];
-  await journey(first, seen, { folder: "skirt-studio", strokes, keeps: true });
+  await journey(first, seen, { folder: "skirt-studio", strokes, isWhole: true });
 }
 
 /** The mannequin in the frame of meshes/dress_cm.obj. */
@@ -246,7 +252,7 @@ async function ofOnesOwn() {
   await until("the dress", async () => Number(await seen.tab.locator("footer").getAttribute("data-frames")) >= 2 && (await dialog.count()) === 0);
   assert.match(await seen.words(), /Taken as cm with z upwards/);
   const strokes = [[[0.56, 0.52], [0.58, 0.86]], [[0.45, 0.52], [0.43, 0.86]], [[0.51, 0.55], [0.51, 0.86]]];
-  await journey(first, seen, { folder: "dress-studio", strokes, keeps: false });  // it takes minutes
+  await journey(first, seen, { folder: "dress-studio", strokes, isWhole: false });  // it takes minutes
 }
 
 /** What a PLY holds, whatever its header says of where it comes from. */

@@ -263,15 +263,16 @@ TEST_CASE(
   }));
 }
 
-TEST_CASE("studio protocol: a thousand random intentions are, too", "[release][long]") {
+TEST_CASE("studio protocol: hundreds of random intentions are, too", "[release][long]") {
   std::mt19937_64 seeds(22);
+  constexpr int runs = FURROW_PROPERTY_CASES / 50;
   int failed = 0;
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < runs; ++i) {
     const std::uint64_t seed = seeds();
     INFO(seed);
-    CHECK_NOTHROW(failed += do_at_random(seed, 50, "thousand"));
+    CHECK_NOTHROW(failed += do_at_random(seed, 50, "hundreds"));
   }
-  CHECK(failed > 200);
+  CHECK(failed > 5 * runs);
 }
 
 }  // namespace furrow
