@@ -116,6 +116,13 @@ class Energy {
   virtual bool add_stiffness(std::span<const Vec3> /*x*/, Stiffness, const BlockSink&) const { return false; }
 };
 
+class ContactTerm;  // base/contact_term.h
+struct Cloth;
+
+/// Makes a contact for one search for rest, or for the implicit steps of one motion, on a cloth whose
+/// particles it sees in the search's order. stiffness: a scale for its push [N/m].
+using ContactMaker = std::function<std::unique_ptr<ContactTerm>(const Cloth& cloth, double stiffness)>;
+
 /// The whole state of a cloth as plain arrays.
 struct Cloth {
   Particles particles;

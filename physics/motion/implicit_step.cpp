@@ -59,9 +59,9 @@ void ImplicitStep::prepare(double dt) {
   if (search_) return;
   const Particles& p = cloth_.particles;
   const BodyAround* body = motion_.body();
-  StepSearch scale(cloth_, motion_, nullptr, nullptr);
+  StepSearch scale(cloth_, motion_, nullptr, nullptr, {});
   begins_ = stiffness_ == 0;
-  if ((body || self_.on) && begins_) {
+  if ((body || self_.on || !options_.contacts.empty()) && begins_) {
     stiffness_ = std::max(scale.contact_stiffness(p.x), push_over_inertia * scale.mean_mass() / (dt * dt));
   }
   if (body) {
@@ -69,8 +69,8 @@ void ImplicitStep::prepare(double dt) {
     begin_contact(scale.elements_at(p.x).pull);
   }
   if (self_.on) make_pairs();
-  search_ = std::make_unique<StepSearch>(cloth_, motion_, contact_.get(), pairs_.get());
-  couple_again();
+  for (const ContactMaker& make : options_.contacts) others_.push_back(make(cloth_, stiffness_));
+  make_search();
   fresh_.clear();
 }
 
@@ -403,7 +403,11 @@ void ImplicitStep::lead_out(double by, State& state) {
 void ImplicitStep::forget_step(const SelfContactMemory& before) {
   known_ = before;
   make_pairs();
-  search_ = std::make_unique<StepSearch>(cloth_, motion_, contact_.get(), pairs_.get());
+  make_search();
+}
+
+void ImplicitStep::make_search() {
+  search_ = std::make_unique<StepSearch>(cloth_, motion_, contact_.get(), pairs_.get(), others_);
   couple_again();
 }
 

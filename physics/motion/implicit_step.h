@@ -62,6 +62,7 @@ class ImplicitStep : public Stepper {
   void prepare(double dt);
   void begin_contact(std::vector<Vec3> pull);
   void make_pairs();
+  void make_search();
   void couple_again();
   void forget_step(const SelfContactMemory& before);
   int approach(const std::vector<Vec3>& from, std::vector<Vec3>& x);
@@ -91,6 +92,7 @@ class ImplicitStep : public Stepper {
   SelfContactMemory known_;  ///< of contact of the cloth with itself, to begin with
   std::vector<int> fresh_;   ///< particles whose contact begins with the first step
   std::unique_ptr<ClothContact> pairs_;
+  std::vector<std::unique_ptr<ContactTerm>> others_;
   std::optional<Vec3> no_room_;  ///< where the last guess could not lead what is held [m]
   bool open_ = false;            ///< a part of the present step was not solved
   bool begins_ = false;          ///< no step was made before

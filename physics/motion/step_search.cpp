@@ -46,7 +46,8 @@ double least_of_parabola(double share, double slope, double rise) {
 
 }  // namespace
 
-StepSearch::StepSearch(const Cloth& cloth, Motion& motion, StepContact* contact, ClothContact* pairs)
+StepSearch::StepSearch(const Cloth& cloth, Motion& motion, StepContact* contact, ClothContact* pairs,
+                       std::span<const std::unique_ptr<ContactTerm>> others)
     : cloth_(cloth),
       loads_(motion.loads()),
       contact_(contact),
@@ -61,6 +62,7 @@ StepSearch::StepSearch(const Cloth& cloth, Motion& motion, StepContact* contact,
   for (std::size_t i = 0; i < p.size(); ++i)
     if (p.inv_mass[i] > 0) mass_ += p.mass[i];
   if (contact) contacts_.push_back({contact, WorkPart::contact});
+  for (const auto& other : others) contacts_.push_back({other.get(), WorkPart::contact});
   if (pairs) contacts_.push_back({pairs, WorkPart::self_contact});
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -65,8 +66,10 @@ struct SearchEnd {
 class StepSearch {
  public:
   /// cloth: that of the motion, by place; its particles' masses and elements count, and must stay. contact:
-  /// null: no body; pairs: null: the cloth passes through itself.
-  StepSearch(const Cloth& cloth, Motion& motion, StepContact* contact, ClothContact* pairs);
+  /// null: no body; pairs: null: the cloth passes through itself; others must
+  /// outlive this object.
+  StepSearch(const Cloth& cloth, Motion& motion, StepContact* contact, ClothContact* pairs,
+             std::span<const std::unique_ptr<ContactTerm>> others);
 
   /// From x, which becomes where the search ended. Throws Cancelled.
   SearchEnd find(const Stage& stage, const StepLoads& given, const StageStart& start,
@@ -141,7 +144,7 @@ class StepSearch {
   const Loads& loads_;
   StepContact* contact_;
   ClothContact* pairs_;
-  std::vector<Contact> contacts_;  ///< the sum of these two
+  std::vector<Contact> contacts_;  ///< the sum of these two and others
   ThreadPool& pool_;
   WorkCounts& work_;
   WorkClock& clock_;

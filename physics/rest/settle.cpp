@@ -157,6 +157,8 @@ class Settler {
                      FaceContactOptions{clearance, o_.faces.error, face_stiffness * (k > 0 ? k : 1)});
     if (contact_) contacts_.push_back(&*contact_);
     if (faces_) contacts_.push_back(&*faces_);
+    for (const ContactMaker& make : o_.contacts)
+      contacts_.push_back(others_.emplace_back(make(cloth, k > 0 ? k : 1)).get());
     if (pairs_) contacts_.push_back(&*pairs_);
   }
 
@@ -201,6 +203,7 @@ class Settler {
     if (pairs_) report.self = self_report(report);
     report.contact_energy =
         (contact_ ? contact_->energy() : 0) + report.contact_energy + (pairs_ ? pairs_->energy() : 0);
+    for (const auto& other : others_) report.contact_energy += other->energy();
     return report;
   }
 
@@ -478,7 +481,8 @@ class Settler {
   std::optional<AnchoredContact> contact_;
   std::optional<FaceContact> faces_;
   std::optional<ClothContact> pairs_;
-  std::vector<ContactTerm*> contacts_;  ///< the sum of these three
+  std::vector<std::unique_ptr<ContactTerm>> others_;
+  std::vector<ContactTerm*> contacts_;  ///< the sum of these
   std::optional<Rest> best_;            ///< with faces_
   int face_rounds_ = 0, round_ends_ = std::numeric_limits<int>::max();
   int refused_ = 0;  ///< steps running
