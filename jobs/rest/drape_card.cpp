@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <thread>
 
 #include "jobs/base/card.h"
 #include "jobs/rest/drape.h"
+#include "jobs/rest/drape_plan.h"
 
 namespace furrow::jobs {
 namespace {
@@ -73,6 +75,24 @@ std::vector<CardRow> card(DrapeJob& job) {
        "the same garment in each of these fabrics: the program takes them separated by commas, and draws "
        "them in one picture"},
   };
+}
+
+bridge::DrapeOptions drape_options_of(const io::Scene& scene, const DrapeSettings& s, double gap) {
+  bridge::DrapeOptions options;
+  options.refinements = scene.subdivide;
+  options.settle.gravity = scene.simulation.gravity;
+  options.settle.friction = scene.simulation.friction;
+  options.settle.tolerance = s.residual;
+  if (s.contact_depth) options.settle.contact_depth = *s.contact_depth;
+  options.settle.self.thickness = thickness_of(scene, s);
+  options.settle.self.friction = scene.simulation.self.friction;
+  options.plain = s.plain;
+  options.bending_friction = s.bending_friction;
+  options.settle.max_iterations = s.iterations.value_or(s.plain ? 20000 : options.settle.max_iterations);
+  options.settle.gap = gap;
+  options.settle.threads =
+      scene.threads ? scene.threads : int(std::max(1u, std::thread::hardware_concurrency()));
+  return options;
 }
 
 }  // namespace furrow::jobs

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <thread>
 
 #include "geometry/fold/fold_base.h"
 #include "geometry/mesh/border_loops.h"
@@ -99,24 +98,6 @@ double thickness_of(const io::Scene& scene, const DrapeSettings& s) {
 void hold_apart(bridge::DrapeOptions& options, const DrapeSettings& s) {
   options.settle.self.on = true;
   options.settle.self.max_iterations = s.iterations.value_or(1000);
-}
-
-bridge::DrapeOptions drape_options_of(const io::Scene& scene, const DrapeSettings& s, double gap) {
-  bridge::DrapeOptions options;
-  options.refinements = scene.subdivide;
-  options.settle.gravity = scene.simulation.gravity;
-  options.settle.friction = scene.simulation.friction;
-  options.settle.tolerance = s.residual;
-  if (s.contact_depth) options.settle.contact_depth = *s.contact_depth;
-  options.settle.self.thickness = thickness_of(scene, s);
-  options.settle.self.friction = scene.simulation.self.friction;
-  options.plain = s.plain;
-  options.bending_friction = s.bending_friction;
-  options.settle.max_iterations = s.iterations.value_or(s.plain ? 20000 : options.settle.max_iterations);
-  options.settle.gap = gap;
-  options.settle.threads =
-      scene.threads ? scene.threads : int(std::max(1u, std::thread::hardware_concurrency()));
-  return options;
 }
 
 void measure_draped(const DrapePlan& plan, Draped& draped) {
