@@ -37,7 +37,7 @@ void add_info(CLI::App& app) {
   auto a = std::make_shared<InfoArguments>();
   CLI::App* sub = app.add_subcommand("info", "Say what a mesh is: counts, topology, lengths, areas, faults");
   sub->add_option("mesh", a->mesh,
-                  "mesh to read: obj, ply, off, stl, gltf, glb; - is OBJ from standard input")
+                  "mesh to read: " + io::mesh_formats(true) + "; - is OBJ from standard input")
       ->required();
   add_common_options(*sub, *a);
   sub->callback([a] { info(*a); });

@@ -17,6 +17,7 @@
 #include <thread>
 
 #include "io/base/field_words.h"
+#include "jobs/base/inputs.h"
 #include "studio/frame_bytes.h"
 #include "studio/message.h"
 #include "studio/page_files.h"
@@ -288,7 +289,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
           self->file_.reset();
           if (number.empty())
             return self->send(plain(asked, http::status::unsupported_media_type,
-                                    "415: a mesh is an .obj, .ply, .off, .stl or .glb"));
+                                    "415: a mesh is of " + io::mesh_formats()));
           self->send(answer_to(asked, http::status::ok, "text/plain; charset=utf-8", number));
         });
   }

@@ -2,16 +2,16 @@
 #include "studio/uploads.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <filesystem>
 #include <utility>
+
+#include "jobs/base/inputs.h"
 
 namespace furrow::studio {
 namespace {
 
 constexpr std::size_t most_kept = 4, longest_name = 80;
-constexpr std::array endings{".obj", ".ply", ".off", ".stl", ".glb"};
 
 /// The last part of a name, its ending in small letters, all else that is no letter or digit a '-'; "": no
 /// mesh is called so.
@@ -19,7 +19,7 @@ std::string plain_name(const std::string& name) {
   const std::filesystem::path file = std::filesystem::path(name).filename();
   std::string stem = file.stem().string(), ending = file.extension().string();
   for (char& c : ending) c = char(std::tolower(static_cast<unsigned char>(c)));
-  if (stem.empty() || name.size() > 255 || std::ranges::find(endings, ending) == endings.end()) return "";
+  if (stem.empty() || name.size() > 255 || !io::is_written_mesh(ending)) return "";
   for (char& c : stem)
     if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_') c = '-';
   return stem.substr(0, longest_name) + ending;

@@ -19,7 +19,7 @@ struct Upload {
 /// The files that pages have sent and that nobody has opened yet: the latest few, in memory. From any thread.
 class Uploads {
  public:
-  /// What stands for it in a message; "" where the name is none of a mesh (obj, ply, off, stl, glb).
+  /// What stands for it in a message; "" where the name is none of a mesh that is written.
   std::string put(const std::string& name, std::string bytes);
   /// Takes it out; none: there is none of that number any more.
   std::optional<Upload> take(const std::string& number);

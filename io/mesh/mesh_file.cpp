@@ -2,7 +2,6 @@
 #include "io/mesh/mesh_file.h"
 
 #include <algorithm>
-#include <array>
 #include <iostream>
 #include <utility>
 
@@ -20,12 +19,14 @@
 namespace furrow::io {
 namespace {
 
-constexpr std::array<std::pair<const char*, MeshFormat>, 6> endings = {{{".obj", MeshFormat::obj},
-                                                                        {".ply", MeshFormat::ply},
-                                                                        {".off", MeshFormat::off},
-                                                                        {".stl", MeshFormat::stl},
-                                                                        {".gltf", MeshFormat::gltf},
-                                                                        {".glb", MeshFormat::gltf}}};
+struct Ending {
+  const char* text;
+  MeshFormat format;
+  bool written = true;
+};
+constexpr Ending endings[] = {{".obj", MeshFormat::obj},          {".ply", MeshFormat::ply},
+                              {".off", MeshFormat::off},          {".stl", MeshFormat::stl},
+                              {".gltf", MeshFormat::gltf, false}, {".glb", MeshFormat::gltf}};
 
 MeshFile parse(std::string_view text, MeshFormat format, const std::string& name,
                const ReadOptions& options) {
@@ -53,14 +54,28 @@ void check_file(const MeshFile& file, const WriteOptions& options) {
 
 }  // namespace
 
+std::string mesh_formats(bool all, const std::string& last) {
+  std::vector<std::string> words;
+  for (const Ending& e : endings)
+    if (all || e.written) words.push_back(e.text + 1);
+  std::string text = words[0];
+  for (std::size_t i = 1; i < words.size(); ++i) text += (i + 1 < words.size() ? ", " : last) + words[i];
+  return text;
+}
+
+bool is_written_mesh(const std::string& ending) {
+  return std::any_of(std::begin(endings), std::end(endings),
+                     [&](const Ending& e) { return e.written && ending == e.text; });
+}
+
 MeshFormat mesh_format(const std::filesystem::path& path) {
   if (path == "-") return MeshFormat::obj;
   const std::string ending = ending_of(path);
-  for (const auto& [known, format] : endings)
-    if (ending == known) return format;
+  for (const Ending& e : endings)
+    if (ending == e.text) return e.format;
   throw geometry::ContentError(
-      path.string() + ": unknown format '" + ending +
-      "'; obj, ply, off, stl, gltf and glb are read, obj, ply, off, stl and glb written" +
+      path.string() + ": unknown format '" + ending + "'; " + mesh_formats(true, " and ") + " are read, " +
+      mesh_formats(false, " and ") + " written" +
       (ending == ".fbx" || ending == ".blend" || ending == ".dae" || ending == ".usd" || ending == ".abc"
            ? "; export it as GLB or OBJ"
            : ""));

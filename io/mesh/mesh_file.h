@@ -68,11 +68,16 @@ struct WriteOptions {
 
 enum class MeshFormat { obj, ply, off, stl, gltf };
 
+/// Endings of names of files that are written (`all`: or read), for a sentence: "obj, ply, off, stl or glb".
+std::string mesh_formats(bool all = false, const std::string& last = " or ");
+/// Whether meshes of that ending, ".ply", are written.
+bool is_written_mesh(const std::string& ending);
+
 /// The format that a file name's ending names, in any case of letters; "-" is OBJ.
 /// Throws geometry::ContentError that lists the known endings.
 MeshFormat mesh_format(const std::filesystem::path& path);
 
-/// Reads by the file name's ending: obj, ply, off, stl, gltf, glb. "-" is OBJ from standard input.
+/// Reads by the file name's ending. "-" is OBJ from standard input.
 /// Throws geometry::ContentError with file and line if the file or its content cannot be used.
 MeshFile read_mesh(const std::filesystem::path& path, const ReadOptions& options = {});
 
@@ -80,7 +85,7 @@ MeshFile read_mesh(const std::filesystem::path& path, const ReadOptions& options
 MeshFile read_mesh(std::istream& in, MeshFormat format, const std::string& name,
                    const ReadOptions& options = {});
 
-/// Writes by the file name's ending: obj, ply, off, stl, glb; to a temporary beside it, then renames. An OBJ
+/// Writes by the file name's ending; to a temporary beside it, then renames. An OBJ
 /// in another folder than the mesh was read from names the material libraries there from here.
 /// Returns what a GLB has no place for, a sentence each. Throws std::invalid_argument for "-" and for what we
 /// do not write, nothing written; std::runtime_error if the file cannot be written, the old one left as it

@@ -5,6 +5,7 @@
 #include <regex>
 #include <tuple>
 
+#include "io/mesh/mesh_file.h"
 #include "io/scene/fabrics.h"
 #include "io/scene/motion_settings.h"
 #include "io/scene/scene.h"
@@ -79,7 +80,7 @@ const Row<Scene> rows[] = {
     {{.path = "output.mesh",
       .keyword = "output",
       .shown_in = used_by::all,
-      .what = "the garment at the end: obj, ply, off, stl or glb; - is OBJ to standard output",
+      .what = "the garment at the end: " + mesh_formats() + "; - is OBJ to standard output",
       .used = used_by::moving},
      path(FIELD(output.mesh))},
     {{.path = "output.state",
@@ -345,10 +346,7 @@ const Row<Scene> rows[] = {
      whole(FIELD(threads), 1, 256)},
 
     // [garment]
-    {{.path = "garment.mesh",
-      .keyword = "",
-      .what = "obj, ply, off, stl, gltf or glb",
-      .usual = "must be there"},
+    {{.path = "garment.mesh", .keyword = "", .what = mesh_formats(true), .usual = "must be there"},
      path(FIELD(garment))},
     {{.path = "garment.subdivide",
       .shown_in = used_by::moving,

@@ -31,8 +31,8 @@ void check_output(const std::string& path) {
     if (io::mesh_format(path) == io::MeshFormat::gltf && io::ending_of(path) == ".gltf")
       throw std::invalid_argument(path + ": a glTF is written as one file; let its name end in .glb");
   } catch (const geometry::ContentError&) {
-    throw std::invalid_argument(
-        path + ": the ending names no format that can be written; choose obj, ply, off, stl or glb");
+    throw std::invalid_argument(path + ": the ending names no format that can be written; choose " +
+                                io::mesh_formats());
   }
   check_folder(path);
 }

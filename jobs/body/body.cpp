@@ -52,7 +52,7 @@ BodyReport shape_body(const BodyJob& job, Listener& listener) {
 
 std::vector<CardRow> card(BodyJob& job) {
   return {
-      {"output", &job.output, "mesh to write: obj, ply, off, stl or glb"},
+      {"output", &job.output, "mesh to write: " + io::mesh_formats()},
       {"height", &job.measures.height, of_height, "from floor to crown [m]"},
       {"chest", &job.measures.chest, of_girth, "around the fullest of the chest, under the armpits [m]"},
       {"waist", &job.measures.waist, of_girth, "around the narrowest [m]"},

@@ -171,7 +171,7 @@ std::vector<CardRow> card(DoctorJob& job) {
       {"repair", &job.repair,
        "join vertices at the same place, drop faces that are twice there, wind neighbours alike, part what "
        "is not manifold, close holes (small ones of a garment, all of a body)"},
-      {"output", &job.output, "mended mesh to write: obj, ply, off, stl or glb"},
+      {"output", &job.output, "mended mesh to write: " + io::mesh_formats()},
   };
 }
 

@@ -47,7 +47,7 @@ std::vector<CardRow> smoothing_card(geometry::TaubinOptions& o, Group group, Aud
 
 std::vector<CardRow> card(SmoothJob& job) {
   std::vector<CardRow> rows = smoothing_card(job.options);
-  rows.insert(rows.begin(), {"output", &job.output, "mesh to write: obj, ply, off, stl or glb"});
+  rows.insert(rows.begin(), {"output", &job.output, "mesh to write: " + io::mesh_formats()});
   return rows;
 }
 

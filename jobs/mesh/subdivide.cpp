@@ -126,7 +126,7 @@ std::vector<CardRow> card(SubdivideJob& job) {
     }};
   };
   return {
-      {"output", &job.output, "mesh to write: obj, ply, off, stl or glb"},
+      {"output", &job.output, "mesh to write: " + io::mesh_formats()},
       {"strokes", &job.strokes, "insert lines: JSON, or the l elements of an OBJ file"},
       {"all", Flag{[&job](bool is_on) {
          if (is_on) job.refinement = Refinement::everywhere;

@@ -120,7 +120,7 @@ TransferReport transfer(const TransferJob& job, Listener& listener) {
 
 std::vector<CardRow> card(TransferJob& job) {
   return {
-      {"output", &job.output, "mesh to write: obj, ply, off, stl or glb"},
+      {"output", &job.output, "mesh to write: " + io::mesh_formats()},
       {"rest_shape", &job.rest,
        "the wrinkled mesh's vertices before lines and motion, if it does not know them, as PLY does"},
       {"body", &job.body,
