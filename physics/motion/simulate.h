@@ -230,7 +230,7 @@ struct ImplicitOptions {
   /// Calm steps of backward Euler go on with the factors of steps before, in under half of the time. Then
   /// a run that was stopped and resumed is the same only up to the tolerance, no more bit by bit.
   bool keep_factors = false;
-  std::vector<ContactMaker> contacts = {};  ///< a caller's own, beside those of body and cloth
+  std::vector<ContactMaker> contacts = {};  ///< beside those of body and cloth
 };
 
 /// Contact of the cloth with itself: no step ever passes through cloth. Implicit steps solve it with the rest

@@ -66,8 +66,7 @@ struct SearchEnd {
 class StepSearch {
  public:
   /// cloth: that of the motion, by place; its particles' masses and elements count, and must stay. contact:
-  /// null: no body; pairs: null: the cloth passes through itself; others must
-  /// outlive this object.
+  /// null: no body; pairs: null: the cloth passes through itself; others: further ones, by place.
   StepSearch(const Cloth& cloth, Motion& motion, StepContact* contact, ClothContact* pairs,
              std::span<const std::unique_ptr<ContactTerm>> others);
 

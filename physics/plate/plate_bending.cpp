@@ -51,12 +51,14 @@ PlateBending::PlateBending(Plate plate, std::size_t particles, std::shared_ptr<c
 
 PlateBending::PlateBending(Plate plate, const PlateBending& like, std::shared_ptr<const PlateOrigin> origin)
     : plate_(std::move(plate)), layout_(plate_), origin_(std::move(origin)), pattern_(like.pattern_) {
-  const Plate& other = like.plate_;
-  const auto same = [](const Hinge& a, const Hinge& b) { return a.vertices == b.vertices; };
-  if (plate_.begin != other.begin || plate_.hinge != other.hinge ||
-      !std::ranges::equal(plate_.hinges, other.hinges, same))
-    refuse("plate", "its hinges and triangles are not those of the other one");
+  if (!like.joins_as(plate_)) refuse("plate", "its hinges and triangles are not those of the other one");
   alone_ = stiffness_alone();
+}
+
+bool PlateBending::joins_as(const Plate& other) const {
+  const auto same = [](const Hinge& a, const Hinge& b) { return a.vertices == b.vertices; };
+  return plate_.begin == other.begin && plate_.hinge == other.hinge &&
+         std::ranges::equal(plate_.hinges, other.hinges, same);
 }
 
 std::vector<double> PlateBending::stiffness_alone() const {

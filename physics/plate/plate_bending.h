@@ -33,6 +33,8 @@ class PlateBending : public Energy {
   /// The same hinges and triangles as another's, pressed or at rest otherwise: without that sort. Throws
   /// std::invalid_argument if they are not.
   PlateBending(Plate plate, const PlateBending& like, std::shared_ptr<const PlateOrigin> origin);
+  /// Whether the other plate has the same hinges and triangles.
+  bool joins_as(const Plate& other) const;
 
   double energy(std::span<const Vec3> x) const override;
   void add_forces(std::span<const Vec3> x, std::span<Vec3> force) const override;

@@ -14,6 +14,7 @@ namespace {
 constexpr double longest_way = 1e6;                    // m: gravity over the least shift
 constexpr double first_pull = 1e8, pull_factor = 0.1;  // [1/s^2], [-]
 constexpr double nearly_zero = 1e-7;                   // of the weight: the limits in reach are known
+constexpr double rounded = 0.5;  // share of what was nearly zero, of which round-off leaves more
 constexpr double free_pull = 1;  // [1/s^2]: 10 m of way; with more, the limits are not in reach yet
 constexpr double served = 0.1;   // share of what was left, that factors of another problem may leave
 constexpr double slowest = 0.9;  // factor at which it gives up
@@ -144,8 +145,10 @@ class Newton {
       balance.factorisations += factorise(state) ? 1 : 0;
       std::optional<State> next = step(state);
       if (!next) return {std::move(state), false};
+      const bool is_rounded = state.slack <= nearly_zero && next->slack > rounded * state.slack;
       state = std::move(*next);
       note(state, best);
+      if (is_rounded) break;
     }
     return {std::move(state), true};
   }

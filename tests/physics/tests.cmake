@@ -47,6 +47,7 @@ furrow_add_tests(physics physics LIBRARIES furrow::physics cases SOURCES
   contact/contact_test.cpp
   contact/depth_map_contact_test.cpp
   body/push_out_test.cpp
+  contact/further_contact_test.cpp
   contact/residual_force_test.cpp
   contact/rigid_contact_test.cpp
   motion/compensation_test.cpp
