@@ -289,7 +289,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
           self->file_.reset();
           if (number.empty())
             return self->send(plain(asked, http::status::unsupported_media_type,
-                                    "415: a mesh is of " + io::mesh_formats()));
+                                    "415: the name of a mesh ends in " + io::mesh_formats()));
           self->send(answer_to(asked, http::status::ok, "text/plain; charset=utf-8", number));
         });
   }

@@ -116,7 +116,7 @@ class Energy {
   virtual bool add_stiffness(std::span<const Vec3> /*x*/, Stiffness, const BlockSink&) const { return false; }
 };
 
-class ContactTerm;  // base/contact_term.h
+class ContactTerm;  // base/contact_term.h, which is not installed
 struct Cloth;
 
 /// Makes a contact for one search for rest, or for the implicit steps of one motion, on a cloth whose

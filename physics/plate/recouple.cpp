@@ -94,10 +94,11 @@ bool recouple(Cloth& cloth) {
     origin.plain = parts.plain;
     cloth.hinges.clear();
     for (const int h : parts.plain) cloth.hinges.push_back(sheet[std::size_t(h)]);
-    auto of = std::make_shared<PlateOrigin>(std::move(origin));
+    auto record = std::make_shared<PlateOrigin>(std::move(origin));
     own = plate->joins_as(parts.plate)
-              ? std::make_shared<PlateBending>(std::move(parts.plate), *plate, std::move(of))
-              : std::make_shared<PlateBending>(std::move(parts.plate), cloth.particles.size(), std::move(of));
+              ? std::make_shared<PlateBending>(std::move(parts.plate), *plate, std::move(record))
+              : std::make_shared<PlateBending>(std::move(parts.plate), cloth.particles.size(),
+                                               std::move(record));
   }
   return any;
 }

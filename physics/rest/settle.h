@@ -57,7 +57,7 @@ struct SettleOptions {
   double longest_move = 0.02;
   int threads = 1;  ///< that share the work; >= 1; the result is the same for any number
   FaceGuard faces = {};
-  std::vector<ContactMaker> contacts = {};  ///< further ones
+  std::vector<ContactMaker> contacts = {};  ///< beside those of body, faces and cloth
   SelfContact self = {};
   StiffnessWork* work = nullptr;  ///< shared with searches before and after, until self acts; null: none
 };
