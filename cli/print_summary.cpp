@@ -208,9 +208,13 @@ void add_placed(Lines& lines, const Json& placed) {
 void add_draped(Lines& lines, const Json& report) {
   const Json& levels = list_of(report, "levels");
   const long long vertices = levels.empty() ? 0 : count_of(levels.back(), "vertices");
+  const Json& local = table_of(report, "local");
   lines.push_back(text_of(report, "garment") + ": " + text_of(report, "outcome") + " (" +
-                  std::to_string(vertices) + " vertices, " + refined(count_of(report, "subdivide")) + ", " +
-                  number(value_of(report, "seconds")) + " s)");
+                  std::to_string(vertices) + " vertices, " +
+                  (local.empty() ? refined(count_of(report, "subdivide"))
+                                 : "refined where it folds; as fine everywhere, " +
+                                       std::to_string(count_of(local, "uniform_vertices"))) +
+                  ", " + number(value_of(report, "seconds")) + " s)");
   if (!report.contains("fit")) return lines.push_back("not measured: `furrow fit` measures what was written");
   const std::string asked = length(report, "gap_asked"), taken = length(report, "gap");
   if (table_of(table_of(report, "fit"), "distance").empty())

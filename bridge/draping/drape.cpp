@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "bridge/arrays/convert.h"
 #include "bridge/arrays/gather.h"
 #include "bridge/arrays/place_noise.h"
 #include "bridge/draping/energy_parts.h"
 #include "bridge/draping/level_start.h"
+#include "bridge/draping/refine_where.h"
 #include "geometry/mesh/mesh.h"
 #include "geometry/mesh/preconditions.h"
 #include "physics/base/cancel_scope.h"
@@ -23,7 +25,15 @@ namespace {
 
 using physics::Vec3;
 
+void check(const RefineWhere& where) {
+  using physics::require;
+  require("drape", "where.finest", where.finest, where.finest >= 0, ">= 0");
+  require("drape", "where.bend", where.bend, where.bend > 0, "> 0");
+  require("drape", "where.seen", where.seen, where.seen > 0, "> 0");
+}
+
 void check(const DrapeOptions& o) {
+  if (o.where) check(*o.where);
   using physics::require;
   constexpr const char* me = "drape";
   const double depth = o.settle.contact_depth;
@@ -61,6 +71,11 @@ physics::SettleReport find_rest(physics::Cloth& cloth, const physics::Collider* 
   return report;
 }
 
+/// Shared with other drapes whose levels have the same mesh.
+physics::StiffnessWork* work_of(const DrapeOptions& o, int level) {
+  return o.work && !o.where ? &o.work->levels[std::size_t(level)] : nullptr;
+}
+
 constexpr int most_soft_iterations = 50;
 /// Where the cloth comes to rest, roughly, with triangles that are softer: a start for its own search.
 physics::SettleReport settle_softly(physics::Cloth& cloth, const physics::Collider* body,
@@ -69,7 +84,7 @@ physics::SettleReport settle_softly(physics::Cloth& cloth, const physics::Collid
   rough.tolerance = std::max(rough.tolerance, o.coarse_tolerance);
   rough.contact_depth = std::numeric_limits<double>::infinity();
   rough.faces = {};
-  rough.work = o.work ? &o.work->levels[0] : nullptr;
+  rough.work = work_of(o, 0);
   rough.max_iterations = std::min(rough.max_iterations, most_soft_iterations);
   rough.self.max_iterations = 0;
   const std::vector<physics::MembraneTriangle> own = cloth.membrane;
@@ -123,15 +138,67 @@ physics::Cloth make_on_way_up(const MakeCloth& make_cloth, geometry::Mesh& made,
   return make_cloth(made);
 }
 
-/// The first level, or the one above that of the cloth. Throws Cancelled if interrupted; the cloth is
-/// unchanged.
-Level go_up(geometry::Mesh& garment, const physics::Cloth& below, double disturbance, const PlaceNoise& noise,
-            const physics::Collider* body, const DrapeOptions& o, const MakeCloth& make_cloth) {
-  Carried carried;
-  if (below.particles.size() > 0) carried = {below.particles.x, refine_level(below.particles.x, garment, o)};
-  Level level{garment, {}, positions_of(garment), {}, {}};
+/// As the cloth lies.
+geometry::Mesh lying(const Level& level) {
+  geometry::Mesh mesh = level.made;
+  for (const geometry::Vertex v : mesh.vertices()) mesh.point(v) = to_cgal(level.cloth.particles.x[v.idx()]);
+  return mesh;
+}
+
+/// The meshes of a drape, coarse to fine.
+class Meshes {
+ public:
+  Meshes(geometry::Mesh& garment, const DrapeOptions& o) : garment_(garment), o_(o) {
+    if (!o.where) return;
+    const physics::CancelScope way_up(cancels_way_up(o));
+    local_.emplace(garment, o.refinements, *o.where);
+    garment_ = local_->mesh();
+  }
+  const geometry::Mesh& mesh() const { return garment_; }
+
+  /// The next finer mesh, unless the cloth asks for none; notes where its vertices lie, as the cloth does
+  /// now.
+  bool refine(const Level& below, bool stopped) {
+    if (!local_) {
+      carried_ = {below.cloth.particles.x, refine_level(below.cloth.particles.x, garment_, o_)};
+      return true;
+    }
+    if (stopped) return false;
+    const physics::CancelScope way_up(cancels_way_up(o_));
+    const geometry::Mesh at_rest = lying(below);
+    if (!local_->refine(at_rest)) return false;
+    garment_ = local_->mesh();
+    carried_ = local_->carry(at_rest, garment_);
+    return true;
+  }
+  /// Where the cloth of the mesh begins.
+  Carried carried(const physics::Cloth& cloth) const {
+    Carried from = carried_;
+    if (!local_ && !from.coarse.empty()) from.coarse = lay_on_coarse(from.coarse, cloth);
+    if (local_)
+      for (std::size_t i = 0; i < from.coarse.size(); ++i)
+        if (!(cloth.particles.inv_mass[i] > 0)) from.coarse[i] = cloth.particles.x[i];
+    return from;
+  }
+  void note(DrapeReport& report) const {
+    if (!local_) return;
+    report.uniform_vertices = local_->uniform_vertices();
+    report.ran_out = local_->ran_out();
+  }
+
+ private:
+  geometry::Mesh& garment_;
+  const DrapeOptions& o_;
+  std::optional<LocalLevels> local_;
+  Carried carried_;
+};
+
+/// The level of a mesh, where it begins. Throws Cancelled if interrupted.
+Level begin(const Meshes& meshes, double disturbance, const PlaceNoise& noise, const physics::Collider* body,
+            const DrapeOptions& o, const MakeCloth& make_cloth) {
+  Level level{meshes.mesh(), {}, positions_of(meshes.mesh()), {}, {}};
   level.cloth = make_on_way_up(make_cloth, level.made, o);
-  if (!carried.coarse.empty()) carried.coarse = lay_on_coarse(carried.coarse, level.cloth);
+  const Carried carried = meshes.carried(level.cloth);
   level.drawn = level.cloth.particles.x;
   level.report.vertices = level.cloth.particles.size();
   DrapeOptions here = o;
@@ -144,11 +211,10 @@ Level go_up(geometry::Mesh& garment, const physics::Cloth& below, double disturb
 
 /// Looks for rest on a level: the first one with softer cloth before, if asked, the last one to the end.
 /// Notes in the report whether it was stopped, or falls.
-void come_to_rest(Level& now, int number, const physics::Collider* body, const DrapeOptions& asked,
+void come_to_rest(Level& now, int number, bool last, const physics::Collider* body, const DrapeOptions& asked,
                   const DrapeObserver& go_on, DrapeReport& report) {
   DrapeOptions o = asked;
   o.settle.self.drawn = now.drawn;
-  const bool last = number == o.refinements;
   const auto observer = [&](const physics::SettleProgress& progress) {
     return !go_on || report.stopped || go_on(number, progress, now.cloth);
   };
@@ -157,7 +223,7 @@ void come_to_rest(Level& now, int number, const physics::Collider* body, const D
     report.stopped = now.report.soft.stopped;
   }
   physics::SettleOptions settle = level_options(o, last, report.stopped);
-  settle.work = o.work ? &o.work->levels[std::size_t(number)] : nullptr;
+  settle.work = work_of(o, number);
   if (last && o.bending_friction > 0 && !report.stopped) {
     const physics::GivenWay rest =
         physics::settle_giving_way(now.cloth, body, o.bending_friction, settle, observer);
@@ -180,12 +246,18 @@ DrapeReport drape(geometry::Mesh& garment, physics::Cloth& cloth, const physics:
   DrapeReport report;
   const PlaceNoise noise(positions_of(garment), o.seed);
   if (o.work) o.work->levels.resize(std::size_t(o.refinements) + 1);
+  Meshes meshes(garment, o);
   Level now;
   for (int level = 0; level <= o.refinements; ++level) {
     const double disturbance = std::ldexp(report.stopped ? 0 : o.disturbance * noise.diagonal(), -level);
     try {
-      Level next = go_up(garment, now.cloth, disturbance, noise, body, o, make_cloth);
-      come_to_rest(next, level, body, o, go_on, report);
+      if (level > 0 && !meshes.refine(now, report.stopped)) {
+        come_to_rest(now, o.refinements, true, body, o, go_on, report);
+        report.levels.back() = now.report;
+        if (!meshes.refine(now, report.stopped)) break;  // what a rough rest does not ask for, this one may
+      }
+      Level next = begin(meshes, disturbance, noise, body, o, make_cloth);
+      come_to_rest(next, level, level == o.refinements, body, o, go_on, report);
       now = std::move(next);
     } catch (const physics::Cancelled&) {
       if (level == 0) throw;
@@ -196,6 +268,7 @@ DrapeReport drape(geometry::Mesh& garment, physics::Cloth& cloth, const physics:
     report.levels.push_back(now.report);
     if (report.falls || (report.stopped && cancels_way_up(o)())) break;
   }
+  meshes.note(report);
   report.energy = energy_parts(now.cloth, o.settle.gravity, now.places);
   report.energy.contact = now.report.settle.contact_energy;
   garment = std::move(now.made);

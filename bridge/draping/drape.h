@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "geometry/mesh/mesh_fwd.h"
@@ -17,8 +18,18 @@ struct DrapeWork {
   std::vector<physics::StiffnessWork> levels;
 };
 
+/// Where a garment is refined (want_of_refinement()).
+struct RefineWhere {
+  double finest = 0;   ///< edges of a face that is cut are at least 1.5 times as long [m]; >= 0
+  double bend = 0.2;   ///< angle across an edge that asks for finer ones [rad]; > 0
+  double seen = 3e-4;  ///< height of folds that would be seen [m]; > 0
+  std::size_t most_vertices = 20000;  ///< about
+};
+
 struct DrapeOptions {
   int refinements = 0;  ///< Loop subdivisions between the given mesh and the fitted one; in [0, 6]
+  /// Faces are refined where they ask for it, as often at most; none: all are.
+  std::optional<RefineWhere> where;
   /// Of the last level; others end at coarse_tolerance, at any depth. self.drawn: the garment as it was made.
   /// With self.on, starts are guarded, too.
   physics::SettleOptions settle;
@@ -71,13 +82,16 @@ struct DrapeLevel {
   bool acted() const { return stopped > 0 || untangled.at_start > 0 || settle.self.acted || soft.self.acted; }
 };
 struct DrapeReport {
-  std::vector<DrapeLevel> levels;  ///< coarse to fine
-  double disturbance = 0;          ///< of the last level [m]
-  int friction_rounds = 0;         ///< rests after each of which what bends too far gave way
-  double slip = 0;                 ///< of a hinge or an edge in the last of them [rad]
-  EnergyParts energy;              ///< of the last level; weight against the garment as it was given
-  bool stopped = false;            ///< by go_on, or interrupted
-  bool falls = false;              ///< a coarse level came to lie on nothing: there are no finer ones
+  std::vector<DrapeLevel> levels;    ///< coarse to fine
+  double disturbance = 0;            ///< of the last level [m]
+  int friction_rounds = 0;           ///< rests after each of which what bends too far gave way
+  double slip = 0;                   ///< of a hinge or an edge in the last of them [rad]
+  EnergyParts energy;                ///< of the last level; weight against the garment as it was given
+  bool stopped = false;              ///< by go_on, or interrupted
+  bool falls = false;                ///< a coarse level came to lie on nothing: there are no finer ones
+  std::size_t uniform_vertices = 0;  ///< with DrapeOptions::where: as many it would have, refined everywhere
+  bool ran_out = false;              ///< of vertices, where more were asked for
+  bool local() const { return uniform_vertices > 0; }
 };
 
 /// Makes a garment cloth: fills its maps, gathers and pins. Called once for each level, with the mesh as it

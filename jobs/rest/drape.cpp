@@ -258,6 +258,10 @@ DrapeJobReport drape_all(const DrapeJob& job, Listener& listener) {
   const bool choose = !job.subdivide && std::none_of(all.begin(), all.end(), [](const io::TomlDocument& d) {
     return d.root->value("garment", Json::object()).contains("subdivide");
   });
+  if (job.settings.finest && !choose)
+    throw std::invalid_argument("`finest` stands in place of `subdivide`: give one of them");
+  if (job.settings.finest && all.size() > 1)
+    throw std::invalid_argument("`finest` is for one garment; `subdivide` refines several");
   DrapeJobReport report{{}, {}, {}, scenes[0], open.frame};
   if (all.size() > 1) {
     drape_all_layers(job, all, open, *body, choose, context, report);

@@ -48,6 +48,7 @@ struct DrapeSettings {
   std::vector<Band> bands;
   double band_stiffness = 50;       ///< [N]; >= 0
   double bending_friction = 0;      ///< [N]; >= 0
+  std::optional<double> finest;     ///< edges where cloth is refined [m]; > 0; none: it is refined everywhere
   std::filesystem::path animation;  ///< of the finest level, a frame an iteration; empty: none
   std::filesystem::path made_for;   ///< body that the garment lies about; empty: the scene's
   std::optional<double> gap;  ///< to the body, whatever edges and field need [m]; > 0; none: they raise it

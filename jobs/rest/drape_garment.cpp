@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 
+#include "geometry/refine/local_refinement.h"
 #include "io/animation/animation_file.h"
 #include "jobs/base/measure_crossings.h"
 #include "jobs/base/read_inputs.h"
@@ -119,7 +120,8 @@ Gone go_with_parts(const DrapePlan& plan, std::unique_ptr<GarmentMaker>& maker,
 void take_result(Gone gone, GarmentMaker& maker, const DrapePlan& plan, const FallWatch& watch,
                  Draped& draped) {
   draped.report = std::move(gone.report);
-  draped.refinements = int(draped.report.levels.size()) - 1;
+  draped.refinements =
+      draped.report.local() ? plan.options.refinements : int(draped.report.levels.size()) - 1;
   if (!draped.report.stopped) draped.forces = maker.forces_on(gone.cloth);
   draped.file = std::move(maker.made);
   draped.file.mesh = std::move(gone.mesh);
@@ -145,6 +147,7 @@ void finish_loose_parts(const DrapePlan& plan, const std::vector<int>& loose, Dr
   io::MeshFile kept = plan.as_read;
   drop_parts(kept, loose);
   drop_parts(draped.file, loose);
+  geometry::drop_uniform_indices(draped.file.mesh);
   measure_draped({plan.scene, plan.body, plan.settings, kept, plan.options}, draped);
 }
 
@@ -266,6 +269,7 @@ Draped drape_garment(const io::Scene& asked, const BodyCollider* body, const Dra
   DrapePlan plan{scene, body, s, given.file, drape_options_of(scene, s, gap), given.places()};
   plan.options.interrupted = [&context] { return context.listener.cancelled_by_user(); };
   plan.options.soft_start = soft_start_of(given.file, !scene.pins.empty());
+  if (!seam_ties(given.file.mesh).empty()) plan.options.where.reset();
   if (body) plan.options.settle.faces = {&body->exact, body->field.report().tolerance};
   const FallWatch watch(at_places(given.file.mesh, given.places()), body, gap);
   const ProgressScope progress(context.listener, "draping");
@@ -280,6 +284,7 @@ Draped drape_garment(const io::Scene& asked, const BodyCollider* body, const Dra
   Draped draped = start(0, context);
   if (count > 1) draped = choose_start(std::move(draped), count, start, context);
   if (given.placed) draped.placed = given.placed->report;
+  geometry::drop_uniform_indices(draped.file.mesh);
   return draped;
 }
 

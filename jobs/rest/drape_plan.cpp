@@ -8,8 +8,10 @@
 
 #include "geometry/fold/fold_base.h"
 #include "geometry/mesh/border_loops.h"
+#include "geometry/mesh/edge_metric.h"
 #include "geometry/mesh/struts.h"
 #include "geometry/mesh/vertex_attributes.h"
+#include "geometry/refine/local_refinement.h"
 #include "geometry/rest/rest_metric.h"
 #include "io/base/field_words.h"
 #include "jobs/base/gate.h"
@@ -44,6 +46,18 @@ physics::ContourReport untangled_of(const std::vector<bridge::DrapeLevel>& level
   physics::ContourReport all;
   for (const bridge::DrapeLevel& level : levels) physics::add_later(level.untangled, all);
   return all;
+}
+
+/// What crossed before, by vertices of the garment as it is refined now; where parts were taken out of one
+/// that was refined locally, that is not known.
+CrossedStart crossed_before(const DrapePlan& plan, const Draped& draped) {
+  CrossedStart crossed = crossed_start(plan.as_read.mesh, draped.refinements);
+  if (!draped.report.local() || crossed.pairs == 0) return crossed;
+  if (geometry::uniform_indices(draped.file.mesh))
+    crossed.vertices = geometry::take_of_uniform(draped.file.mesh, crossed.vertices);
+  else
+    crossed.vertices.clear();
+  return crossed;
 }
 
 double gap_with(double wanted, double sag, double tolerance) { return std::max(wanted, sag + tolerance); }
@@ -107,7 +121,7 @@ void measure_draped(const DrapePlan& plan, Draped& draped) {
   }
   const physics::CancelScope whole([] { return false; });  // one whose budget is spent is measured, too
   draped.measured = true;
-  const CrossedStart crossed = crossed_start(plan.as_read.mesh, draped.refinements);
+  const CrossedStart crossed = crossed_before(plan, draped);
   draped.self_contact = plan.options.settle.self.on;
   draped.limits = {std::size_t(plan.scene.allow_crossings), plan.settings.penetration,
                    plan.settings.residual};
@@ -169,9 +183,17 @@ GivenGarment read_given(const io::Scene& scene, const BodyCollider* body, const 
     heed(faults_of_pair(given.file.mesh, body->outline, scene.body->unit.has_value()), scene.garment.string(),
          context);
   given.scene.subdivide = scene.subdivide;
-  if (choose && !s.plain && body)
+  if (s.finest && seam_ties(given.file.mesh).empty())
+    given.scene.subdivide = refinements_for_edges(given.file.mesh, *s.finest);
+  else if (choose && !s.plain && body)
     given.scene.subdivide =
         refinements_for_gap(given.file.mesh, scene.simulation.contact_gap, body->field.report().tolerance);
+  if (s.finest && !seam_ties(given.file.mesh).empty())
+    context.warn(
+        "refined_everywhere",
+        "`finest` does not refine a garment where three or more faces meet at an edge: it is refined "
+        "everywhere, as its gap to the body needs; `subdivide` says how often",
+        "finest", "garment.subdivide");
   require_refinement(given.file.mesh->number_of_faces(), 4, given.scene.subdivide, "subdivide", context);
   if (given.scene.subdivide > 0 &&
       geometry::struts(given.file.mesh).size() > seam_ties(given.file.mesh).size())
@@ -198,6 +220,23 @@ int refinements_for_gap(const geometry::Mesh& garment, double wanted, double tol
   while (levels < 4 && vertices <= most_vertices && sag > tolerance / 4 && sag + tolerance > slack * wanted) {
     ++levels;
     sag /= 4;
+    vertices *= 4;
+  }
+  return levels;
+}
+
+int refinements_for_edges(const geometry::Mesh& garment, double finest) {
+  constexpr double most_vertices = 1e6;  // of the uniform mesh, which is made to take places from
+  const std::vector<double> rest = geometry::rest_lengths(garment);
+  double longest = 0, vertices = double(garment.number_of_vertices());
+  for (const geometry::Face f : garment.faces()) {
+    const auto [a, b, c] = geometry::edge_lengths(garment, f, rest);
+    longest = std::max(longest, (a + b + c) / 3);
+  }
+  int levels = 0;
+  while (levels < 6 && longest >= 1.5 * finest && 4 * vertices <= most_vertices) {
+    ++levels;
+    longest /= 2;
     vertices *= 4;
   }
   return levels;

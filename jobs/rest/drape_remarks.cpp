@@ -18,7 +18,20 @@ namespace furrow::jobs {
 namespace {
 
 /// The next refinement.
-std::string finer(const Draped& d) { return "`subdivide=" + std::to_string(d.refinements + 1) + "`"; }
+std::string finer(const Draped& d) {
+  return d.report.local() ? "a smaller `finest`" : "`subdivide=" + std::to_string(d.refinements + 1) + "`";
+}
+const char* finer_field(const Draped& d) { return d.report.local() ? "finest" : "garment.subdivide"; }
+
+void remark_on_refinement(const Draped& d, std::vector<DrapeRemark>& remarks) {
+  if (d.report.ran_out)
+    remarks.push_back(
+        {false,
+         {"vertices_ran_out",
+          d.name + ": more of it asks to be refined than its vertices allow; what folds most was "
+                   "refined first; a larger `finest` asks for less",
+          d.name, "finest"}});
+}
 
 /// What the body does to the cloth that has come to rest on it.
 void remark_on_contact(const Draped& d, std::vector<DrapeRemark>& remarks) {
@@ -39,13 +52,13 @@ void remark_on_contact(const Draped& d, std::vector<DrapeRemark>& remarks) {
                         : "; look at where the garment lies before it is draped (and at `unit`), refine it "
                           "with ") +
               finer(d) + ", or accept it with `penetration`",
-          d.name, "garment.subdivide"}});
+          d.name, finer_field(d)}});
   else if (faces)
     remarks.push_back(
         {false,
          {"body_comes_through",
           d.name + ": " + through + "; with " + finer(d) + " the cloth follows the body more closely", d.name,
-          "garment.subdivide"}});
+          finer_field(d)}});
   if (d.too_near)
     remarks.push_back(
         {false,
@@ -478,6 +491,7 @@ std::vector<DrapeRemark> remarks_on(std::span<const Draped> garments) {
     remark_on_start(d, remarks);
     remark_on_strain(d, remarks);
     remark_on_contact(d, remarks);
+    remark_on_refinement(d, remarks);
     remark_on_loose_parts(d, remarks);
     remark_on_lost_parts(d, remarks);
     remark_on_crossings(d, remarks);
@@ -556,6 +570,8 @@ Json to_json(const Draped& d) {
                      {"vertices", d.loose_parts.vertices},
                      {"area_share", d.loose_parts.area_share},
                      {"done", word_of(d.loose_parts.use)}};
+  if (d.report.local())
+    json["local"] = {{"uniform_vertices", d.report.uniform_vertices}, {"ran_out", d.report.ran_out}};
   if (d.placed) json["placed"] = to_json(*d.placed);
   if (d.self_contact) json["self_contact"] = self_contact_json(d);
   if (d.other) json["other_search"] = to_json(*d.other);

@@ -9,6 +9,7 @@
 #include "geometry/mesh/border_loops.h"
 #include "geometry/mesh/parts.h"
 #include "geometry/mesh/struts.h"
+#include "geometry/refine/local_refinement.h"
 #include "geometry/refine/subdivide.h"
 #include "jobs/base/read_inputs.h"
 #include "jobs/cloth/pins.h"
@@ -136,9 +137,16 @@ void GarmentMaker::tie_seams(const geometry::Mesh& mesh) {
 
 /// Refined as the garment is, level by level.
 void GarmentMaker::bring_to_places(const geometry::Mesh& mesh, physics::Cloth& cloth) {
-  if (mesh.num_vertices() == as_read_.mesh->num_vertices()) at_places_ = at_places(as_read_.mesh, places_);
-  while (at_places_.num_vertices() < mesh.num_vertices()) geometry::loop_subdivide(at_places_, 1);
-  cloth.particles.x = bridge::positions_of(at_places_);
+  if (at_places_.num_vertices() == 0 || mesh.num_vertices() == as_read_.mesh->num_vertices())
+    at_places_ = at_places(as_read_.mesh, places_);
+  const auto index = geometry::uniform_indices(mesh);
+  const auto is_coarse = [&](geometry::Vertex v) {
+    return std::size_t((*index)[v]) >= at_places_.num_vertices();
+  };
+  while (index ? std::any_of(mesh.vertices_begin(), mesh.vertices_end(), is_coarse)
+               : at_places_.num_vertices() < mesh.num_vertices())
+    geometry::loop_subdivide(at_places_, 1);
+  cloth.particles.x = geometry::take_of_uniform(mesh, bridge::positions_of(at_places_));
 }
 
 void GarmentMaker::hold_loose(const geometry::Mesh& mesh, physics::Cloth& cloth) const {

@@ -9,6 +9,7 @@
 #include "bridge/arrays/convert.h"
 #include "geometry/mesh/parts.h"
 #include "geometry/mesh/struts.h"
+#include "geometry/refine/local_refinement.h"
 #include "geometry/refine/subdivide.h"
 #include "geometry/stroke/project_onto_surface.h"
 #include "physics/pairs/pair_distance.h"
@@ -131,10 +132,25 @@ LooseParts loose_parts_of(const io::MeshFile& given, std::span<const int> seeds)
   return result;
 }
 
-void carry_loose_parts(geometry::Mesh& draped, const geometry::Mesh& given, int refinements,
-                       std::span<const int> seeds, LooseCarry carry) {
+namespace {
+
+/// Refined as the one that was draped.
+geometry::Mesh refined_as(const geometry::Mesh& draped, const geometry::Mesh& given, int refinements) {
   geometry::Mesh before = given;
   if (refinements > 0) geometry::loop_subdivide(before, refinements);
+  const auto index = geometry::uniform_indices(draped);
+  if (!index) return before;
+  geometry::Mesh local = draped;
+  for (const geometry::Vertex v : local.vertices())
+    local.point(v) = before.point(geometry::Vertex(geometry::Vertex::size_type((*index)[v])));
+  return local;
+}
+
+}  // namespace
+
+void carry_loose_parts(geometry::Mesh& draped, const geometry::Mesh& given, int refinements,
+                       std::span<const int> seeds, LooseCarry carry) {
+  const geometry::Mesh before = refined_as(draped, given, refinements);
   const geometry::Parts parts = geometry::find_parts(before);
   const std::vector<char> loose = seeded(parts, seeds);
   if (carry == LooseCarry::by_place) return carry_by_place(draped, before, parts, loose);

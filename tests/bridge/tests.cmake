@@ -20,6 +20,7 @@ furrow_add_tests(bridge bridge LIBRARIES furrow::bridge garment_cases SOURCES
   arrays/tension_constants_test.cpp
   draping/body_test.cpp
   draping/posed_body_test.cpp
+  draping/refine_where_test.cpp
   RELEASE_SOURCES
   draping/draped_test.cpp
   draping/garment_rest_test.cpp

@@ -30,6 +30,7 @@ furrow_add_tests(geometry geometry LIBRARIES furrow::geometry SOURCES
   rest/warp_directions_test.cpp
   insert/mesh_editor_test.cpp
   refine/bake_maps_test.cpp
+  refine/local_refinement_test.cpp
   refine/subdivide_test.cpp
   refine/transfer_shape_test.cpp
   figure/close_holes_test.cpp
