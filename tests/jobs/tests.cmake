@@ -12,6 +12,7 @@ furrow_add_tests(jobs jobs LIBRARIES furrow::jobs cases SOURCES
   cloth/contact_gap_test.cpp
   mesh/doctor_test.cpp
   rest/drape_cancelled_test.cpp
+  rest/drape_finest_test.cpp
   rest/drape_layers_test.cpp
   rest/drape_tangles_test.cpp
   rest/drape_test.cpp
