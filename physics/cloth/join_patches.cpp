@@ -83,7 +83,10 @@ std::optional<Fan> fan_of(const Cloth& cloth, const std::vector<Corner>& around)
   Fan fan{{}, true};
   Corner now = around.front();
   for (const Corner c : around) {
-    if (starting_at(from(c))->triangle != c.triangle) return {};  // two triangles on one side of an edge
+    const bool twice = std::ranges::any_of(around, [&](Corner other) {
+      return other.triangle != c.triangle && (from(other) == from(c) || to(other) == to(c));
+    });
+    if (twice) return {};  // two triangles on one side of an edge
     if (std::ranges::any_of(around, [&](Corner other) { return to(other) == from(c); })) continue;
     fan.closed = false;
     now = c;
@@ -225,6 +228,9 @@ PatchCount join_patches(Cloth& cloth, const PatchOptions& o) {
           "in (0, 1]");
   require("join_patches", "most_defect", o.most_defect, o.most_defect >= 0, ">= 0");
   check_elements(cloth, cloth.particles.size());
+  if (cloth.particles.inv_mass.size() != cloth.particles.size())
+    refuse("join_patches", cloth.particles.inv_mass.size(), " inverse masses of ", cloth.particles.size(),
+           " particles");
   const Net net = net_of(cloth);
   PatchCount count;
   Patches patches;
