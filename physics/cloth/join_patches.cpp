@@ -221,6 +221,10 @@ void keep_used(const std::vector<Patches::Edge>& edges, Patches& patches) {
   for (int& e : patches.edge) e = number[std::size_t(e)];
 }
 
+std::array<double*, 4> moduli_of(MembraneTriangle& t) {
+  return {&t.lambda, &t.mu, &t.threads.warp, &t.threads.weft};
+}
+
 }  // namespace
 
 PatchCount join_patches(Cloth& cloth, const PatchOptions& o) {
@@ -247,12 +251,18 @@ PatchCount join_patches(Cloth& cloth, const PatchOptions& o) {
   patches.begin.push_back(int(patches.edge.size()));
   keep_used(net.edges, patches);
   cloth.energies.push_back(std::make_shared<PatchMembrane>(std::move(patches), cloth.particles.size()));
-  for (std::size_t t = 0; t < given.size(); ++t) {
-    const double kept = 1 - (1 - o.triangle_share) * given[t] / 3;
-    MembraneTriangle& own = cloth.membrane[t];
-    for (double* part : {&own.lambda, &own.mu, &own.threads.warp, &own.threads.weft}) *part *= kept;
-  }
+  for (std::size_t t = 0; t < given.size(); ++t)
+    for (double* modulus : moduli_of(cloth.membrane[t]))
+      *modulus *= 1 - (1 - o.triangle_share) * given[t] / 3;
   return count;
+}
+
+void soften_membrane(Cloth& cloth, double times) {
+  require("soften_membrane", "times", times, times > 0, "> 0");
+  for (MembraneTriangle& t : cloth.membrane)
+    for (double* modulus : moduli_of(t)) *modulus /= times;
+  for (auto& own : cloth.energies)
+    if (const auto* patches = dynamic_cast<const PatchMembrane*>(own.get())) own = patches->softened(times);
 }
 
 }  // namespace furrow::physics

@@ -129,6 +129,12 @@ std::shared_ptr<const PackedEnergy> PatchMembrane::packed(std::span<const int> p
   return std::make_shared<PackedPatches>(patches_, place);
 }
 
+std::shared_ptr<PatchMembrane> PatchMembrane::softened(double times) const {
+  auto copy = std::make_shared<PatchMembrane>(*this);
+  for (Eigen::Matrix3d& own : copy->patches_.stiffness) own /= times;
+  return copy;
+}
+
 /// J^T A C J of each patch.
 void PatchMembrane::add_strain_blocks(std::span<const Vec3> x, std::vector<Mat3>& blocks) const {
   const Patches& p = patches_;

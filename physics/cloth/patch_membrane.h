@@ -49,6 +49,8 @@ class PatchMembrane : public Energy {
   bool add_stiffness(std::span<const Vec3> x, Stiffness stiffness, const BlockSink& sink) const override;
 
   const Patches& patches() const { return patches_; }
+  /// The same with a stiffness divided by `times` (> 0). O(patches).
+  std::shared_ptr<PatchMembrane> softened(double times) const;
 
  private:
   void find_pattern();
@@ -80,5 +82,9 @@ struct PatchCount {
 /// check_elements(). Source: Dohrmann et al. 2000, Node-based uniform strain elements, IJNME 47; Puso and
 /// Solberg 2006, A stabilized nodally integrated tetrahedral, IJNME 67.
 PatchCount join_patches(Cloth& cloth, const PatchOptions& options = {});
+
+/// Divides the stiffness of a cloth's triangles and patches. O(elements). Throws std::invalid_argument if
+/// `times` is not > 0.
+void soften_membrane(Cloth& cloth, double times);
 
 }  // namespace furrow::physics

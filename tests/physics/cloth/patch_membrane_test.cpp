@@ -8,6 +8,7 @@
 #include "physics/base/vec4.h"
 #include "physics/cloth/element_blocks.h"
 #include "physics/cloth/elements.h"
+#include "physics/cloth/join_cloths.h"
 #include "physics/cloth/membrane.h"
 #include "tests/cases/flat_meshes.h"
 #include "tests/cases/plates.h"
@@ -270,6 +271,30 @@ TEST_CASE("patches: held triangles take no part, bow ties and slivers stay plain
   CHECK(count(tie).patches == 4);
   tie.membrane[1].rest_lengths = {2 - 1e-9, 1, 1};
   CHECK(count(tie).patches == 2);
+}
+
+TEST_CASE("patches: joined cloths have the forces of each, a softened one a share of them") {
+  std::array<Cloth, 2> two{woven_sheet_of(SheetKind::jittered), woven_sheet_of(SheetKind::one_diagonal)};
+  for (Cloth& cloth : two) {
+    join_patches(cloth);
+    cloth.particles.x = crumpled(cloth, 9);
+  }
+  const Cloth all = join_cloths(two);
+  REQUIRE(all.energies.size() == 2);
+  const Eigen::VectorXd force = forces(all, all.particles.x);
+  const Eigen::Index first = Eigen::Index(3 * two[0].particles.size());
+  CHECK(force.head(first) == forces(two[0], two[0].particles.x));
+  CHECK(force.tail(force.size() - first) == forces(two[1], two[1].particles.x));
+  const Eigen::MatrixXd k = stiffness_matrix(all, all.particles.x, Stiffness::exact);
+  CHECK(k.topRightCorner(first, k.cols() - first).isZero(0));
+  CHECK(k.topLeftCorner(first, first) == stiffness_matrix(two[0], two[0].particles.x, Stiffness::exact));
+
+  Cloth soft = two[0];
+  soften_membrane(soft, 4);
+  const double energy = potential_energy(two[0], soft.particles.x);
+  CHECK(potential_energy(soft, soft.particles.x) == Approx(energy / 4).epsilon(1e-14));
+  CHECK(potential_energy(two[0], soft.particles.x) == energy);  // copies share no patches that change
+  CHECK_THROWS_AS(soften_membrane(soft, 0), std::invalid_argument);
 }
 
 TEST_CASE("patches: bad options and arrays are refused, nothing changed") {
