@@ -17,8 +17,8 @@ struct SlitAnnulus {
   std::vector<int> lifted;   ///< particles of the free side, from the inner radius to the outer
   std::vector<double> load;  ///< of each, at full load along z [N]
 };
-/// The lifts of the inner and the outer corner of the free side at shares of the full load, from shell
-/// elements of 10 x 80 quads (their Table 4).
+/// The lifts of the inner and the outer corner of the free side at shares of the full load, as they tabulate
+/// them of fine meshes of shells.
 struct AnnulusLift {
   double share, inner, outer;
 };
