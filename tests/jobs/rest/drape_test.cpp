@@ -567,9 +567,7 @@ TEST_CASE("drape: without a body a sheet hangs from its edge and stretches by it
   CHECK_FALSE(remarks_on(report, "touches_nothing"));
 }
 
-TEST_CASE(
-    "drape: on patches a sheet hangs as on triangles but for what its folds lock; a motion says that it "
-    "takes triangles") {
+TEST_CASE("drape: on patches a sheet hangs as on triangles, which a motion of it takes and says so") {
   tests::Recorder recorder;
   jobs::DrapeJob job = from_its_edge();
   const jobs::Draped plain = only(jobs::drape(job, recorder));

@@ -38,7 +38,7 @@ TEST_CASE("patches: a fine mesh of triangles comes to the same lifts", "[release
   }
 }
 
-TEST_CASE("cusick: stiff cloth on patches drapes on 40 rings as on many, even or jittered; triangles lock",
+TEST_CASE("cusick: stiff cloth on patches drapes on 40 rings as on many, on triangles it is held up",
           "[release]") {
   const auto drape = [](bool patches, double jitter) {
     CusickOptions options;
