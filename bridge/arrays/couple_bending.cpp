@@ -22,7 +22,8 @@ using namespace geometry;
 std::vector<std::array<double, 3>> opposite_lengths(const Mesh& mesh, Membrane membrane) {
   const std::vector<double> rest = rest_lengths(mesh);
   std::optional<HalfedgeMap<double>> own;
-  if (membrane == Membrane::triangles) own = find_map(mesh, attribute::triangle_rest_length);
+  if (membrane == Membrane::triangles || membrane == Membrane::patches)
+    own = find_map(mesh, attribute::triangle_rest_length);
   const auto length = [&](Halfedge h) {
     const double l = own && !std::isnan((*own)[h]) ? (*own)[h] : rest[mesh.edge(h).idx()];
     if (!(l > 0) || !std::isfinite(l))

@@ -21,13 +21,15 @@ enum class Membrane {
   inverse,     ///< k = (r_avg / r) k_std: that of a thread
   van_gelder,  ///< k = Y sum of the rest areas beside the edge / r^2 (Van Gelder 1998)
   triangles,   ///< triangles of constant strain: a plane sheet of Y and Poisson's ratio on every mesh
-  tension      ///< quadratic, asymmetric tension (method S2.2, bridge/arrays/tension_constants.h)
+  tension,     ///< quadratic, asymmetric tension (method S2.2, bridge/arrays/tension_constants.h)
+  patches      ///< triangles that physics::join_patches() is to be called for, once pins are set
 };
 
 /// The word of each in scenes and flags.
 inline constexpr std::pair<const char*, Membrane> membrane_words[] = {
     {"paper", Membrane::paper},           {"uniform", Membrane::uniform},     {"inverse", Membrane::inverse},
-    {"van-gelder", Membrane::van_gelder}, {"triangles", Membrane::triangles}, {"tension", Membrane::tension}};
+    {"van-gelder", Membrane::van_gelder}, {"triangles", Membrane::triangles}, {"tension", Membrane::tension},
+    {"patches", Membrane::patches}};
 
 /// The array of a cloth that a membrane of triangles fills: calls visit(elements); false if it is none of
 /// triangles. The kind must be a physics::MembraneTriangle or derive from it.
@@ -35,6 +37,7 @@ template <class Visit>
 bool visit_triangles(Membrane membrane, physics::Cloth& cloth, Visit&& visit) {
   switch (membrane) {
     case Membrane::triangles:
+    case Membrane::patches:
       visit(cloth.membrane);
       return true;
     default:

@@ -17,6 +17,7 @@
 #include "physics/base/cancel_scope.h"
 #include "physics/base/progress.h"
 #include "physics/base/require.h"
+#include "physics/cloth/patch_membrane.h"
 #include "physics/rest/give_way.h"
 #include "physics/rest/settle.h"
 
@@ -88,14 +89,11 @@ physics::SettleReport settle_softly(physics::Cloth& cloth, const physics::Collid
   rough.max_iterations = std::min(rough.max_iterations, most_soft_iterations);
   rough.self.max_iterations = 0;
   const std::vector<physics::MembraneTriangle> own = cloth.membrane;
-  for (physics::MembraneTriangle& t : cloth.membrane) {
-    t.lambda /= o.soft_start;
-    t.mu /= o.soft_start;
-    t.threads.warp /= o.soft_start;
-    t.threads.weft /= o.soft_start;
-  }
+  const auto energies = cloth.energies;
+  physics::soften_membrane(cloth, o.soft_start);
   const physics::SettleReport report = physics::settle(cloth, body, rough, observer);
   cloth.membrane = own;
+  cloth.energies = energies;
   return report;
 }
 

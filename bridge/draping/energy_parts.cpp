@@ -5,6 +5,7 @@
 
 #include "physics/cloth/elements.h"
 #include "physics/cloth/kinds.h"
+#include "physics/cloth/patch_membrane.h"
 
 namespace furrow::bridge {
 
@@ -23,8 +24,12 @@ EnergyParts energy_parts(const physics::Cloth& cloth, const physics::Vec3& gravi
   EnergyParts parts;
   parts.stretch = sum(cloth.structural) + sum(cloth.membrane) + sum(cloth.tension);
   parts.bending = sum(cloth.hinges, cloth.hinge_law);
-  for (const auto& own : cloth.energies) parts.bending += own->energy(p.x);
-  const bool across = cloth.hinges.empty() && cloth.energies.empty();
+  bool across = cloth.hinges.empty();
+  for (const auto& own : cloth.energies) {
+    const bool stretches = dynamic_cast<const physics::PatchMembrane*>(own.get()) != nullptr;
+    (stretches ? parts.stretch : parts.bending) += own->energy(p.x);
+    across = across && stretches;
+  }
   (across ? parts.bending : parts.ties) += sum(cloth.bending);
   for (std::size_t i = 0; i < p.size(); ++i)
     if (p.inv_mass[i] > 0) parts.weight -= p.mass[i] * gravity.dot(p.x[i] - places[i]);

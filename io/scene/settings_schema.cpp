@@ -192,8 +192,9 @@ const Row<Scene> rows[] = {
      number(FIELD(material.bias_rigidity), positive("N m"))},
     {{.path = "material.membrane",
       .what = "what resists stretching, in place of a fabric: triangles (of constant strain, as fabrics "
-              "are), tension (quadratic and asymmetric, paper 2), or springs: paper (by the paper's law), "
-              "uniform, inverse, van-gelder",
+              "are), patches (the same with the mean strain around each vertex, which does not lock in fine "
+              "folds; drape alone), tension (quadratic and asymmetric, paper 2), or springs: paper (by the "
+              "paper's law), uniform, inverse, van-gelder",
       .flag_in = used_by::all},
      choice<Membrane>(FIELD(material.membrane),
                       {std::begin(bridge::membrane_words), std::end(bridge::membrane_words)})},

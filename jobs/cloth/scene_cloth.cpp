@@ -145,6 +145,10 @@ physics::Cloth cloth_of(const io::MeshFile& file, const io::Scene& scene,
   });
   pin_cloth(cloth, pins, body, time, context);
   couple_cloth(file, scene, cloth, context);
+  if (scene.material.membrane == bridge::Membrane::patches)
+    context.warn("patches_are_triangles",
+                 "`membrane=patches` is for `furrow drape`: here its triangles stay as they are",
+                 scene.garment.string(), "material.membrane");
   return cloth;
 }
 

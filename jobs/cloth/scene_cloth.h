@@ -28,8 +28,9 @@ void pin_cloth(physics::Cloth& cloth, const std::vector<std::vector<int>>& pins,
 bool couple_cloth(const io::MeshFile& file, const io::Scene& scene, physics::Cloth& cloth,
                   const Context& context, bool tell = true);
 
-/// The cloth of a complete garment: gathered from its springs, pinned (pin_cloth()) and coupled. Throws as
-/// bridge::gather() does, naming the scene's garment.
+/// The cloth of a complete garment: gathered from its springs, pinned (pin_cloth()) and coupled. The membrane
+/// `patches` is one of triangles here; warns of it. Throws as bridge::gather() does, naming the scene's
+/// garment.
 physics::Cloth cloth_of(const io::MeshFile& file, const io::Scene& scene,
                         const std::vector<std::vector<int>>& pins, const WorldBody* body, double time,
                         const Context& context);

@@ -18,6 +18,7 @@
 #include "jobs/rest/made_for.h"
 #include "physics/body/collider.h"
 #include "physics/cloth/elastic_band.h"
+#include "physics/cloth/patch_membrane.h"
 #include "physics/cloth/pins.h"
 
 namespace furrow::jobs {
@@ -97,6 +98,7 @@ physics::Cloth GarmentMaker::operator()(geometry::Mesh& mesh) {
   for (const std::vector<int>& held : pins_)
     for (const int i : held) held_[std::size_t(i)] = 1;
   if (!loose.empty()) hold_loose(mesh, cloth);
+  if (scene_.material.membrane == bridge::Membrane::patches) physics::join_patches(cloth);
   told_thin_ |= couple_cloth(made, scene_, cloth, context_, !told_thin_);  // once, not at each level
   if (!loose.empty() && settings_.animation.empty()) leave_out_loose(mesh, cloth);
   int moved = 0;

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "physics/base/require.h"
+#include "physics/cloth/patch_membrane.h"
 
 namespace furrow::physics {
 namespace {
@@ -57,6 +58,15 @@ void append_shifted(std::vector<Element>& all, std::vector<Element> more, int by
   append(all, more);
 }
 
+std::shared_ptr<const Energy> shifted(const std::shared_ptr<const Energy>& own, std::size_t first,
+                                      std::size_t count) {
+  const auto* membrane = dynamic_cast<const PatchMembrane*>(own.get());
+  if (!membrane) return std::make_shared<ShiftedEnergy>(own, first, count);
+  Patches patches = membrane->patches();
+  for (Patches::Edge& e : patches.edges) shift(e, int(first));
+  return std::make_shared<PatchMembrane>(std::move(patches), first + count);
+}
+
 }  // namespace
 
 Cloth join_cloths(std::span<const Cloth> cloths) {
@@ -77,8 +87,7 @@ Cloth join_cloths(std::span<const Cloth> cloths) {
     if (!c.hinges.empty()) all.hinge_law = c.hinge_law;
     append_shifted(all.hinges, c.hinges, by);
     append_shifted(all.triangles, c.triangles, by);
-    for (const auto& e : c.energies)
-      all.energies.push_back(std::make_shared<ShiftedEnergy>(e, first, c.particles.size()));
+    for (const auto& e : c.energies) all.energies.push_back(shifted(e, first, c.particles.size()));
   }
   return all;
 }

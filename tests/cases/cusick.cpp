@@ -6,12 +6,15 @@
 #include <complex>
 #include <limits>
 #include <numbers>
+#include <random>
 #include <stdexcept>
 #include <string>
 
 #include "physics/cloth/elements.h"
+#include "physics/cloth/patch_membrane.h"
 #include "physics/cloth/pins.h"
 #include "tests/cases/flat_meshes.h"
+#include "tests/cases/plates.h"
 
 namespace furrow::cases {
 namespace {
@@ -36,8 +39,18 @@ void check(const CusickOptions& o) {
   need(o.bending_length > 0, "bending_length", o.bending_length, "> 0");
   need(o.folds >= 0, "folds", o.folds, ">= 0");
   need(true, "slope", o.slope, "finite");
+  need(o.jitter >= 0 && o.jitter <= 0.3, "jitter", o.jitter, "in [0, 0.3]");
   const double held = o.rings * o.support / o.radius;
   need(std::abs(held - std::round(held)) < 1e-6, "rings * support / radius", held, "whole");
+}
+
+/// What bends, and the patches, over the flat specimen with its membrane.
+void add_bending(Cloth& cloth, const CusickOptions& o) {
+  const double rigidity = std::pow(o.bending_length, 3) * o.density * cusick_gravity;  // B = c^3 w an area
+  if (o.patches) physics::join_patches(cloth);
+  if (o.plate) return add_plate(cloth, physics::isotropic_plate(rigidity));
+  add_flat_hinges(cloth, rigidity);
+  if (o.stiff_clamp) physics::stiffen_clamps(cloth);
 }
 
 /// Where the triangle meets the line y: from, to; from > to if it does not.
@@ -73,15 +86,18 @@ Cusick cusick_specimen(const CusickOptions& o) {
   cloth.structural.clear();
   cloth.hinge_law = o.law;
   auto& [x, v, mass, inv_mass] = cloth.particles;
+  std::mt19937_64 random(1);
   for (std::size_t i = 0; i < x.size(); ++i) {
     const double r = distance_from_axis(x[i]);
     if (r < o.support + 1e-9 * o.radius) inv_mass[i] = 0;
-    if (r > o.radius * (1 - 1e-9)) specimen.rim.push_back(int(i));
+    if (r > o.radius * (1 - 1e-9))
+      specimen.rim.push_back(int(i));
+    else if (o.jitter > 0 && inv_mass[i] > 0)
+      for (int axis : {0, 1})
+        x[i][axis] += o.jitter * o.radius / o.rings * (double(random() >> 11) * 0x1p-52 - 1);
   }
   add_flat_membrane(cloth, o.young, o.poisson);
-  // B = c^3 w, w the weight an area
-  add_flat_hinges(cloth, std::pow(o.bending_length, 3) * o.density * cusick_gravity);
-  if (o.stiff_clamp) physics::stiffen_clamps(cloth);
+  add_bending(cloth, o);
   for (std::size_t i = 0; i < x.size(); ++i) {
     const double out = distance_from_axis(x[i]) - o.support, angle = std::atan2(x[i].y(), x[i].x());
     if (inv_mass[i] > 0) x[i].z() = -o.slope * out * (1 + std::cos(o.folds * angle));

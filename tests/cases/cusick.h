@@ -17,6 +17,9 @@ struct CusickOptions {
   double poisson = 0.3;          ///< [-]; in (-1, 1)
   physics::HingeLaw law = physics::HingeLaw::linear;
   bool stiff_clamp = true;  ///< hinges on the discs' edge count twice (pins.h: stiffen_clamps)
+  bool plate = false;       ///< in place of hinges; it is clamped by itself
+  bool patches = false;     ///< the membrane is joined (join_patches())
+  double jitter = 0;        ///< free particles within the rim move by up to so many h in x and y; in [0, 0.3]
   int folds = 7;            ///< in the start; >= 0
   double slope = 0.2;       ///< of the start outside the discs, and as much of its folds [-]
 };

@@ -12,6 +12,7 @@ furrow_add_tests(physics physics LIBRARIES furrow::physics cases SOURCES
   cloth/membrane_laws_test.cpp
   cloth/membrane_test.cpp
   cloth/woven_membrane_test.cpp
+  cloth/patch_membrane_test.cpp
   cloth/pins_test.cpp
   plate/plate_bending_test.cpp
   plate/plate_rigidity_test.cpp
@@ -97,6 +98,7 @@ furrow_add_tests(physics physics LIBRARIES furrow::physics cases SOURCES
   motion/oscillations_test.cpp
   motion/speed_accuracy_test.cpp
   rest/cusick_test.cpp
+  rest/patch_rests_test.cpp
   rest/plate_strips_test.cpp
   rest/settle_cases_test.cpp
   rest/settle_strips_test.cpp

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "physics/cloth/elements.h"
+#include "physics/cloth/patch_membrane.h"
 
 using namespace furrow;
 using physics::Vec3;
@@ -47,6 +48,12 @@ TEST_CASE("energy_parts: elements by kind sum up to their energy, and weight to 
   across.hinges.clear();
   CHECK(bridge::energy_parts(across, Vec3::Zero(), places).bending == Approx(parts.ties));
   CHECK(bridge::energy_parts(across, Vec3::Zero(), places).ties == 0);
+  physics::Cloth patched = across;
+  CHECK(physics::join_patches(patched).patches == 4);
+  const bridge::EnergyParts of_patches = bridge::energy_parts(patched, Vec3::Zero(), places);
+  CHECK(of_patches.stretch == Approx(physics::potential_energy(patched, patched.particles.x) - parts.ties));
+  CHECK(of_patches.stretch < parts.stretch);
+  CHECK(of_patches.bending == Approx(parts.ties));
   places.pop_back();
   CHECK_THROWS_WITH(bridge::energy_parts(cloth, Vec3::Zero(), places), Catch::Contains("3 places"));
 }

@@ -231,8 +231,8 @@ void add_bridge(std::vector<Door>& all) {
                  }});
   all.push_back({"fit_report", [](M m) { bridge::fit_report(m, ball, distance); }});
   all.push_back({"strain_report", [](M m) { bridge::strain_report(m); }});
-  for (const auto membrane :
-       {bridge::Membrane::paper, bridge::Membrane::triangles, bridge::Membrane::tension}) {
+  for (const auto membrane : {bridge::Membrane::paper, bridge::Membrane::triangles, bridge::Membrane::tension,
+                              bridge::Membrane::patches}) {
     bridge::GatherOptions o = springs();
     o.membrane = membrane;
     o.bending = membrane == bridge::Membrane::paper ? bridge::Bending::cross : bridge::Bending::plate;

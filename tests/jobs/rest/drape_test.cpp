@@ -16,6 +16,7 @@
 #include "geometry/rest/rest_metric.h"
 #include "io/scene/scene.h"
 #include "jobs/body/world_body.h"
+#include "jobs/move/simulate.h"
 #include "jobs/rest/drape_garment.h"
 #include "jobs/rest/drape_starts.h"
 #include "tests/jobs/job_folders.h"
@@ -564,6 +565,29 @@ TEST_CASE("drape: without a body a sheet hangs from its edge and stretches by it
   CHECK(json["fit"]["body_height"].is_null());
   CHECK(json["angle_defect"].get<double>() < 0.1);
   CHECK_FALSE(remarks_on(report, "touches_nothing"));
+}
+
+TEST_CASE("drape: on patches a sheet hangs as on triangles, which a motion of it takes and says so") {
+  tests::Recorder recorder;
+  jobs::DrapeJob job = from_its_edge();
+  const jobs::Draped plain = only(jobs::drape(job, recorder));
+  set(job, "material.membrane", "patches");
+  const jobs::Draped patched = only(jobs::drape(job, recorder));
+  CHECK(patched.outcome() == "at rest");
+  const auto low = [](const jobs::Draped& d) {
+    double y = 1;
+    for (const geometry::Point& p : d.file.mesh->points()) y = std::min(y, p.y());
+    return y;
+  };
+  CHECK(low(patched) == Approx(low(plain)).margin(5e-4));
+  CHECK(low(patched) != low(plain));
+  CHECK_FALSE(recorder.warned_of("patches_are_triangles"));
+  job.scene.memory.meshes["sheet"] = patched.file;
+  set(job, "simulation.seconds", 0.01);
+  jobs::SimulateJob motion;
+  motion.scene = job.scene;
+  jobs::simulate(motion, recorder);
+  CHECK(recorder.warned_of("patches_are_triangles"));
 }
 
 TEST_CASE("drape: what holds a garment carries its weight: a pin, a body, or both, and a band pulls",
