@@ -83,7 +83,7 @@ void add_keep(CLI::App& app, int& exit_code) {
   sub->add_option(
       "--picture", a->picture,
       "picture of the garment, lines coloured by verdict: green held, yellow pressed, orange struts, blue "
-      "lower, violet may hold, red cannot hold; faces that cross are magenta");
+      "lower, violet may hold, red cannot hold, grey not known; faces that cross are magenta");
   a->flags.add_to(*sub, io::used_by::keep);
   add_camera_options(*sub, a->camera);
   add_common_options(*sub, *a);

@@ -500,12 +500,16 @@ Lines simulate_lines(const Json& report) {
 Lines keep_lines(const Json& report) {
   const Json& drawn = list_of(report, "lines");
   const auto fails = [](const Json& line) { return text_of(line, "verdict").rfind("held", 0) != 0; };
-  const auto may = [](const Json& line) { return text_of(line, "verdict") == "may hold"; };
+  const auto count = [&](const char* verdict) {
+    return std::count_if(drawn.begin(), drawn.end(),
+                         [&](const Json& line) { return text_of(line, "verdict") == verdict; });
+  };
   const auto n = std::count_if(drawn.begin(), drawn.end(), fails);
-  const auto in_calm = std::count_if(drawn.begin(), drawn.end(), may);
+  const auto in_calm = count("may hold"), open = count("not known");
   Lines lines{std::to_string(drawn.size() - static_cast<std::size_t>(n)) + " of " +
               counted(static_cast<long long>(drawn.size()), "line") + " will hold" +
-              (in_calm > 0 ? ", " + std::to_string(in_calm) + " more where nothing blows" : "")};
+              (in_calm > 0 ? ", " + std::to_string(in_calm) + " more where nothing blows" : "") +
+              (open > 0 ? ", of " + std::to_string(open) + " it is not known" : "")};
   for (const bool failing : {true, false})  // what fails first
     for (const Json& line : drawn)
       if (fails(line) == failing)

@@ -33,7 +33,8 @@ using bridge::Verdict;
 using cases::RandomGarment;
 
 constexpr double most = 0.05;  // a line may lose or win [-]
-constexpr const char* names[] = {"held", "press", "struts", "lowered", "may hold", "cannot hold"};
+constexpr const char* names[] = {"held",     "press",       "struts",   "lowered",
+                                 "may hold", "cannot hold", "not known"};
 
 struct Help {
   double press = 0, struts = 0, height = 0;

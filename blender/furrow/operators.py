@@ -285,7 +285,7 @@ class Keep(Job, bpy.types.Operator):
             self.report({"INFO"}, "%s: %s" % (line.get("name") or line["id"], line["words"]))
         columns = files.read_ply_columns(os.path.join(self.folder, "cloth.ply"))
         shades = {"held": (0.25, 0.66, 0.41), "held with press": (0.94, 0.80, 0.24), "held with struts": (0.95, 0.53, 0.24),
-                  "lowered": (0.27, 0.47, 0.86), "may hold": (0.63, 0.35, 0.82), "cannot hold": (0.77, 0.16, 0.20)}
+                  "lowered": (0.27, 0.47, 0.86), "may hold": (0.63, 0.35, 0.82), "cannot hold": (0.77, 0.16, 0.20), "not known": (0.59, 0.59, 0.59)}
         of_line = {line["id"]: shades.get(line["verdict"], (0.8, 0.8, 0.8)) for line in verdicts}
         shown = numpy.array([of_line.get(int(i), (0.8, 0.8, 0.8)) for i in columns["line"]]) if "line" in columns else None
         if shown is not None:

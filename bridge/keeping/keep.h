@@ -81,7 +81,8 @@ enum class Verdict {
   strutted,
   lowered,   ///< it stands, at less than `kept` of the height that was asked for
   may_hold,  ///< it stands where nothing blows, but not in gusts, or hardly: see reason
-  cannot_hold
+  cannot_hold,
+  not_known  ///< the work was interrupted before that was found
 };
 
 /// Whether a line with that verdict stands at the height that was asked for, as far as trials can say.
@@ -96,7 +97,7 @@ struct KeptLine {
   double lowered = 1;  ///< that over the height that was asked for [-]; NaN: not known
   /// Shares of `height` after the two runs [-]; NaN: not run. Gusts are those that decided.
   double kept = 0, kept_gust = 0;
-  std::string reason;  ///< of may_hold and cannot_hold
+  std::string reason;  ///< of those that do not hold
 };
 
 struct KeepReport {

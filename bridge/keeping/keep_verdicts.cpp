@@ -149,7 +149,10 @@ std::vector<KeptLine> verdicts(const TriedPlan& found, const std::vector<double>
       continue;
     }
     v.reason = why_not(interrupted, found, i, o);
-    if (interrupted) continue;
+    if (interrupted) {
+      v.verdict = Verdict::not_known;
+      continue;
+    }
     if (stands(found, i, o.kept)) v.verdict = Verdict::may_hold;
     if (!as_asked) v.reason = share_text(v.lowered) + " of the height asked is left, and " + v.reason;
   }

@@ -29,7 +29,8 @@ struct KeepReport {
 };
 
 /// "held", "held with press x10", "held with struts of 3 N/m", "lowered to h = 4.2 mm of 10 mm asked", or
-/// "cannot hold: ...". What is off by more than 5 % is never called held without its height.
+/// "cannot hold: ..." or "not known: interrupted". What is off by more than 5 % is never called held without
+/// its height.
 std::string words(const bridge::KeptLine& line, const io::WrinkleRecord& record);
 
 Json to_json(const KeepReport& report);

@@ -32,6 +32,8 @@ const char* word_of(Verdict verdict) {
       return "may hold";
     case Verdict::cannot_hold:
       return "cannot hold";
+    case Verdict::not_known:
+      return "not known";
   }
   return "";
 }
@@ -105,6 +107,8 @@ std::string words(const KeptLine& line, const io::WrinkleRecord& record) {
       return "lowered to" + at + (help.empty() ? "" : ", with " + help);
     case Verdict::may_hold:
       return "may hold" + with + (other ? " at" + at : "") + ": " + line.reason;
+    case Verdict::not_known:
+      return "not known: " + line.reason;
     case Verdict::cannot_hold:
       break;
   }

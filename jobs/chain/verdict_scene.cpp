@@ -26,6 +26,8 @@ io::Colour colour_of(Verdict verdict) {
       return {0.50f, 0.20f, 0.70f};
     case Verdict::cannot_hold:
       return {0.75f, 0.05f, 0.10f};
+    case Verdict::not_known:
+      return {0.45f, 0.45f, 0.45f};
   }
   return {};
 }
@@ -55,7 +57,7 @@ io::RenderScene verdict_scene(const geometry::Mesh& mesh, const bridge::KeepRepo
   for (const KeptLine& line : report.lines) last = std::max(last, line.line);
   const std::vector<double> heights(std::size_t(last + 1), 0.0);
   for (const Verdict verdict : {Verdict::held, Verdict::pressed, Verdict::strutted, Verdict::lowered,
-                                Verdict::may_hold, Verdict::cannot_hold}) {
+                                Verdict::may_hold, Verdict::cannot_hold, Verdict::not_known}) {
     io::LineColours colours;
     colours.other = colour_of(verdict);
     const auto lines = io::render_lines_from(lines_of(mesh, report.lines, verdict), heights, colours);

@@ -6,7 +6,7 @@
 namespace furrow::jobs {
 
 /// The garment with its lines in the colours of their verdicts: green held, yellow pressed, orange struts,
-/// blue lowered, red cannot hold.
+/// blue lowered, violet may hold, red cannot hold, grey not known.
 io::RenderScene verdict_scene(const geometry::Mesh& mesh, const bridge::KeepReport& report);
 
 }  // namespace furrow::jobs

@@ -39,6 +39,8 @@ VerdictLook look_of(Verdict verdict) {
       return {"lowered", {70, 120, 220}};
     case Verdict::may_hold:
       return {"may_hold", {160, 90, 210}};
+    case Verdict::not_known:
+      return {"not_known", {150, 150, 150}};
     case Verdict::cannot_hold:
       break;
   }
@@ -59,7 +61,7 @@ std::vector<std::uint8_t> colours_of_verdicts(const KeepReport& report) {
   const std::vector<double> lengths = geometry::lengths_before_lines(mesh);
   const std::vector<double> widths = io::line_widths(report.record);
   for (const Verdict verdict : {Verdict::held, Verdict::pressed, Verdict::strutted, Verdict::lowered,
-                                Verdict::may_hold, Verdict::cannot_hold})
+                                Verdict::may_hold, Verdict::cannot_hold, Verdict::not_known})
     for (const KeptLine& line : report.lines.lines) {
       if (line.verdict != verdict || !id) continue;
       std::vector<geometry::Vertex> seeds;

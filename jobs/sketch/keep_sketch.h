@@ -11,8 +11,9 @@ namespace furrow::jobs {
 /// What was found of a line that is to be kept.
 struct KeptSketchLine {
   std::string name;
-  std::string verdict;  ///< "held", "pressed", "strutted", "lowered", "may_hold" or "cannot_hold"
-  std::string words;    ///< "held with press x10": jobs::words()
+  std::string
+      verdict;        ///< "held", "pressed", "strutted", "lowered", "may_hold", "cannot_hold" or "not_known"
+  std::string words;  ///< "held with press x10": jobs::words()
 };
 
 /// A sketch whose lines were kept.

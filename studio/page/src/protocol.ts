@@ -43,7 +43,7 @@ export interface GalleryItem {
 }
 export interface Verdict {
   name: string;
-  verdict: "held" | "pressed" | "strutted" | "lowered" | "may_hold" | "cannot_hold";
+  verdict: "held" | "pressed" | "strutted" | "lowered" | "may_hold" | "cannot_hold" | "not_known";
   words: string;
 }
 export interface Done {
