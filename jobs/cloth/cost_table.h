@@ -7,8 +7,9 @@
 /// 0.5 s) with each integrator and each kind of element, divided by what the report counts;
 /// bench/integrator_bench prints the same for a sheet of 2,500. A body that changes its shape:
 /// meshes/shirt.obj for 0.2 s on meshes/mannequin.obj that sways in 25 frames a second, less the same at
-/// rest, with leapfrog's and half its steps. Iterations: a T-shirt of MakeHuman in cotton on its body, in a
-/// wind, of 808, 3,150 and 12,414 vertices, beside leapfrog. Only the ratios matter.
+/// rest, with leapfrog's and half its steps; since its distances are exact, by bench/motion/deforming.
+/// Iterations: a T-shirt of MakeHuman in cotton on its body, in a wind, of 808, 3,150 and 12,414 vertices,
+/// beside leapfrog. Only the ratios matter.
 namespace furrow::jobs {
 
 struct Work {                ///< counts of a run
