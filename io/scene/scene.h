@@ -69,7 +69,7 @@ struct SceneBody {
   std::filesystem::path frames;  ///< PC2, MDD or OBJ sequence of a body that changes its shape; empty: rigid
   double fps = 0;                ///< of frames whose file names no times [1/s]; 0: as the file says, else 25
   physics::DistanceFieldOptions options;
-  bool depth_maps = false;  ///< of frames: what their distance is asked from, rather than a field each
+  bool depth_maps = false;  ///< of frames: their distance is asked from maps, and is not exact
   physics::RigidMotion motion;
 };
 

@@ -71,8 +71,9 @@ void check_body(SettingsTable& table, const Scene& scene) {
   if (body.mesh.empty()) table.fail("mesh", "is missing: name the body's mesh");
   if (body.depth_maps && body.frames.empty())
     table.fail("collider", "is for frames: a rigid body's field is built once, and right everywhere");
-  if (body.depth_maps && says_field)
-    table.fail("collider", "has no tolerance and no gradient; leave out those settings");
+  if (!body.frames.empty() && says_field)
+    table.fail("frames",
+               "have no tolerance and no gradient: no field is made of them; leave out those settings");
   if (!body.frames.empty() && !physics::at_rest(body.motion))
     table.fail("frames", "move the body already; leave out its motion");
 }

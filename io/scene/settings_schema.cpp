@@ -425,9 +425,9 @@ const Row<Scene> rows[] = {
          {{"exact", GradientRule::exact_derivative}, {"interpolated", GradientRule::interpolated_corners}})},
     {{.path = "body.collider",
       .keyword = "",
-      .what = "of a body with frames: its distance field, or depth maps from six sides, which are redrawn "
-              "faster and asked slower ([decision 18](../decisions/0018-depth-maps.md))"},
-     choice<bool>(FIELD(body->depth_maps), {{"field", false}, {"depth-maps", true}})},
+      .what = "of a body with frames: exact distances, or depth maps from six sides, which do not see all "
+              "([decision 18](../decisions/0018-depth-maps.md))"},
+     choice<bool>(FIELD(body->depth_maps), {{"exact", false}, {"depth-maps", true}})},
     {{.path = "body.motion", .keyword = "", .what = "of a rigid body, see below"},
      own(Kind::table, "table",
          [](SettingsTable& table, const char* key, Scene& s) { read_motion(table, key, s.body->motion); })},

@@ -191,14 +191,10 @@ void WorldBody::read_frames(const io::SceneBody& body, const Context& context) {
     require_area(x, triangles_, path, i);
     return x;
   };
-  physics::DistanceFieldOptions field = threaded(body.options);
-  if (!field.tolerance) field.tolerance = 0.002;
-  if (field.most_samples == 0) field.most_samples = limits.field_samples;
-  tolerance_ = *field.tolerance;  // and of depth maps, 95 times of 100
-  physics::FrameColliderOptions collider = field;
-  if (body.depth_maps) collider = six_maps();
-  animated_ = std::make_unique<physics::AnimatedBody>(physics::BodyFrames{triangles_, frames_->times(), read},
-                                                      collider);
+  tolerance_ = body.depth_maps ? 0.002 : 0;  // of depth maps 95 times of 100
+  animated_ =
+      std::make_unique<physics::AnimatedBody>(physics::BodyFrames{triangles_, frames_->times(), read},
+                                              body.depth_maps ? std::optional(six_maps()) : std::nullopt);
   if (body.depth_maps) check_maps(context);
   fingerprint_ = fingerprint_of(frames_->positions(0), tolerance_) +
                  fingerprint_of(frames_->positions(frames_->frames() - 1), frames_->times().back());
@@ -217,7 +213,7 @@ void WorldBody::check_maps(const Context& context) const {
     text << path_ << ": depth maps of frame " << i << " take " << std::setprecision(2)
          << 100 * test.false_inside_share() << " % of the points beside the body for inside and "
          << 100 * test.false_outside_share()
-         << " % of those inside for outside, where no map sees it; collider = \"field\" is right there";
+         << " % of those inside for outside, where no map sees it; collider = \"exact\" is right there";
     context.warn("body_hides_from_maps", text.str(), path_, "body.collider");
     return;
   }
@@ -242,17 +238,11 @@ std::unique_ptr<physics::Collider> WorldBody::precise_at_start() const {
   return std::make_unique<physics::PosedCollider>(rigid_->exact, physics::pose(motion_, 0));
 }
 
-int WorldBody::fields_until(double seconds) const {
+double WorldBody::triangles_until(double seconds) const {
   if (!animated_) return 0;
   const std::vector<double>& times = frames_->times();
   const auto reached = std::upper_bound(times.begin(), times.end(), seconds) - times.begin() + 1;
-  return static_cast<int>(std::clamp<std::ptrdiff_t>(reached, 2, std::ssize(times)));
-}
-
-double WorldBody::samples_of_field() const {
-  if (!animated_) return 0;
-  animated_->prepare(0, 0);
-  return double(animated_->samples_built()) / animated_->frames_built();
+  return double(triangles_.size()) * double(std::clamp<std::ptrdiff_t>(reached, 2, std::ssize(times)));
 }
 
 std::vector<physics::Vec3> WorldBody::vertices_at(double time) const {

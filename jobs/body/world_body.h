@@ -67,11 +67,9 @@ class WorldBody {
   std::unique_ptr<physics::Collider> at_start() const;
   /// The same, precisely; null: it changes its shape.
   std::unique_ptr<physics::Collider> precise_at_start() const;
-  double tolerance() const { return tolerance_; }  ///< of the field [m]
-  /// Fields that a run from time 0 to `seconds` builds on its way; 0: rigid.
-  int fields_until(double seconds) const;
-  /// Exact distances that one of them takes, as the first two do; builds those. 0: rigid.
-  double samples_of_field() const;
+  double tolerance() const { return tolerance_; }  ///< of the field [m]; 0: distances are exact
+  /// Triangles of all frames that a run from time 0 to `seconds` reaches; 0: rigid.
+  double triangles_until(double seconds) const;
   /// Tells one body's shape and field from another's (not its motion).
   const std::string& fingerprint() const { return fingerprint_; }
   /// Puts the points `which` that lie inside at a time onto the surface, by exact distance; rigid bodies

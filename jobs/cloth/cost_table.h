@@ -7,8 +7,9 @@
 /// 0.5 s) with each integrator and each kind of element, divided by what the report counts;
 /// bench/integrator_bench prints the same for a sheet of 2,500. A body that changes its shape:
 /// meshes/shirt.obj for 0.2 s on meshes/mannequin.obj that sways in 25 frames a second, less the same at
-/// rest, with leapfrog's and half its steps. Iterations: a T-shirt of MakeHuman in cotton on its body, in a
-/// wind, of 808, 3,150 and 12,414 vertices, beside leapfrog. Only the ratios matter.
+/// rest, with leapfrog's and half its steps; since its distances are exact, by bench/motion/deforming.
+/// Iterations: a T-shirt of MakeHuman in cotton on its body, in a wind, of 808, 3,150 and 12,414 vertices,
+/// beside leapfrog. Only the ratios matter.
 namespace furrow::jobs {
 
 struct Work {                ///< counts of a run
@@ -19,7 +20,7 @@ struct Work {                ///< counts of a run
   double hinges = 0;         ///< of a hinge's
   double queries = 0;        ///< of a rigid body's distance at a vertex
   double frame_queries = 0;  ///< of the distance of one that changes its shape
-  double samples = 0;        ///< exact distances, for the fields of its frames
+  double refitted = 0;       ///< triangles of all its frames
   double iterations = 0;     ///< of Newton's method, in steps that solve contact
   double sweeps = 0;         ///< XPBD's, times springs
 };
@@ -31,8 +32,8 @@ struct CostTable {                  ///< [s]
   double triangle = 13.6e-9;
   double hinge = 15.7e-9;
   double query = 45e-9;
-  double frame_query = 470e-9;  ///< with its share of the closest points, and two fields
-  double sample = 1.2e-6;
+  double frame_query = 1.2e-6;  ///< with its share of the closest points
+  double refit = 1.5e-6;
   double sweep = 8.5e-9;            ///< of XPBD, a spring
   double iteration = 1.9e-6;        ///< of implicit steps, a vertex: assembly, factors of single precision
   double iteration_fill = 1.3e-10;  ///< and times vertices^2: the factor fills in
@@ -43,7 +44,7 @@ constexpr CostTable costs;
 constexpr double cost_of(const Work& w, double vertex_step) {
   const CostTable& c = costs;
   return w.vertices * w.steps * vertex_step + w.springs * c.spring + w.triangles * c.triangle +
-         w.hinges * c.hinge + w.queries * c.query + w.frame_queries * c.frame_query + w.samples * c.sample +
+         w.hinges * c.hinge + w.queries * c.query + w.frame_queries * c.frame_query + w.refitted * c.refit +
          w.sweeps * c.sweep + w.iterations * w.vertices * (c.iteration + c.iteration_fill * w.vertices);
 }
 

@@ -186,7 +186,6 @@ SceneCloth prepare_scene(const io::Scene& scene, const Context& context, std::sh
     result.options.contact_gap =
         contact_gap(result.options.contact_gap, result.body->tolerance(), result.file);
     result.near_body = result.body->count_near(result.cloth.particles.x, near);
-    result.field_samples = result.body->samples_of_field();
   }
   result.options.threads = threads_of(scene, result.cloth.particles.size());
   if (!scene.integrator)

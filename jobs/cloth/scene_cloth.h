@@ -50,7 +50,6 @@ struct SceneCloth {
   physics::Cloth cloth;              ///< pinned
   physics::SimulateOptions options;  ///< the scene's, with gap and threads; without stop_at
   int near_body = 0;                 ///< vertices within 2 cm of the body
-  double field_samples = 0;          ///< exact distances that the field of a frame of the body takes
   double seconds = 0;                ///< until the end, or the first lines that come later [s]
   bool ends_at_lines = false;
 

@@ -81,12 +81,11 @@ double cost_with(const Work& work, Integrator integrator) {
   return cost_of(work, integrator == Integrator::rk4 ? costs.rk4_vertex_step : costs.vertex_step);
 }
 
-/// So many distances asked for, and the fields of the frames on the way.
+/// So many distances asked for, and the frames on the way.
 void add_body(Work& w, const SceneCloth& scene, double queries, double seconds) {
   if (!scene.body) return;
-  const int fields = scene.body->fields_until(seconds);
-  (fields ? w.frame_queries : w.queries) = queries;
-  w.samples = fields * scene.field_samples;
+  w.refitted = scene.body->triangles_until(seconds);
+  (w.refitted > 0 ? w.frame_queries : w.queries) = queries;
 }
 
 double springs_of(const physics::Cloth& cloth) {

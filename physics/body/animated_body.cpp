@@ -2,9 +2,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "physics/body/depth_map_collider.h"
 #include "physics/body/moving_body.h"
@@ -36,25 +38,25 @@ Vec3 weights(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c) {
 
 }  // namespace
 
-/// A frame with what its distance is asked from, once it is built: exact and field, or bvh and maps.
+/// A frame with what its distance is asked from, once it is built: exact, or bvh and maps.
 struct AnimatedBody::Frame {
   int index;
   std::vector<Vec3> vertices;
   std::optional<ExactDistance> exact;
-  std::optional<DistanceField> field;
   std::optional<TriangleBvh> bvh;
   std::unique_ptr<DepthMapCollider> maps;
 
-  bool is_built() const { return field || maps; }
-  SignedDistance at(const Vec3& x) const { return maps ? maps->at(x) : field->at(x); }
+  bool is_built() const { return exact || maps; }
+  SignedDistance at(const Vec3& x) const { return maps ? maps->at(x) : exact->at(x); }
+  SignedDistance at(const Vec3& x, int guess) const { return maps ? maps->at(x) : exact->at(x, guess); }
   ClosestPoint closest(const Vec3& x) const { return maps ? bvh->closest(x) : exact->closest(x); }
   ClosestPoint closest(const Vec3& x, int guess) const {
     return maps ? bvh->closest(x, guess) : exact->closest(x, guess);
   }
 };
 
-AnimatedBody::AnimatedBody(BodyFrames frames, const FrameColliderOptions& options)
-    : frames_(std::move(frames)), options_(options) {
+AnimatedBody::AnimatedBody(BodyFrames frames, const std::optional<DepthMapOptions>& maps)
+    : frames_(std::move(frames)), maps_(maps) {
   const std::vector<double>& times = frames_.times;
   if (times.size() < 2) refuse_frames(std::to_string(times.size()) + " frames; at least two are needed");
   if (frames_.triangles.empty()) refuse_frames("no triangles");
@@ -105,11 +107,9 @@ std::shared_ptr<AnimatedBody::Frame> AnimatedBody::find(int index) {
 
 void AnimatedBody::enter(int interval) {
   std::shared_ptr<Frame> first = find(interval), second = find(interval + 1);
-  for (const std::shared_ptr<Frame>& old : {first_, second_}) {
-    if (!old || old == first || old == second) continue;
-    if (left_ && left_ != first && left_ != second && left_->maps) spare_ = std::move(left_->maps);
-    left_ = old;
-  }
+  for (std::shared_ptr<Frame>& old : {std::ref(first_), std::ref(second_)})
+    if (old && old != first && old != second) leave(std::move(old));
+  if (left_ == first || left_ == second) left_.reset();
   first_ = std::move(first), second_ = std::move(second);
   interval_ = interval;
   longest_way_ = 0;
@@ -119,21 +119,31 @@ void AnimatedBody::enter(int interval) {
                               (second_->vertices[std::size_t(v)] - first_->vertices[std::size_t(v)]).norm());
 }
 
+/// Keeps it as the one that time left last; the memory of the one before serves the next.
+void AnimatedBody::leave(std::shared_ptr<Frame> frame) {
+  if (left_ && left_.use_count() == 1) {
+    if (left_->maps) spare_maps_ = std::move(left_->maps);
+    spare_ = std::move(left_->exact);
+  }
+  left_ = std::move(frame);
+}
+
+const ExactDistance& AnimatedBody::model() {
+  if (!model_) model_.emplace(TriangleMesh{find(0)->vertices, frames_.triangles});
+  return *model_;
+}
+
 void AnimatedBody::build(Frame& frame) {
   if (frame.is_built()) return;
   const TriangleMesh mesh{frame.vertices, frames_.triangles};
-  if (const auto* maps = std::get_if<DepthMapOptions>(&options_)) {
+  if (maps_) {
     frame.bvh.emplace(mesh);
-    if (spare_) {
-      spare_->rebuild(mesh.vertices);
-      frame.maps = std::move(spare_);
-    } else {
-      frame.maps = std::make_unique<DepthMapCollider>(mesh, *maps);
-    }
+    if (spare_maps_) spare_maps_->rebuild(mesh.vertices);
+    frame.maps = spare_maps_ ? std::move(spare_maps_) : std::make_unique<DepthMapCollider>(mesh, *maps_);
+  } else if (frame.index == 0) {
+    frame.exact = model();
   } else {
-    frame.exact.emplace(mesh);
-    frame.field = DistanceField::build(*frame.exact, std::get<DistanceFieldOptions>(options_));
-    samples_built_ += frame.field->report().samples;
+    frame.exact = model().moved(mesh, std::exchange(spare_, std::nullopt));
   }
   ++frames_built_;
 }
@@ -174,24 +184,31 @@ Vec3 AnimatedBody::way_of(const ClosestPoint& point, const Frame& frame) const {
   return w[0] * (to[i] - from[i]) + w[1] * (to[j] - from[j]) + w[2] * (to[k] - from[k]);
 }
 
-Vec3 AnimatedBody::way(const Vec3& x) const {
-  if (longest_way_ == 0) return Vec3::Zero();
+AnimatedBody::Beside AnimatedBody::beside(const Vec3& x) const {
   const bool is_early = fraction_ < 0.5;
   const Frame& frame = is_early ? *first_ : *second_;
   const double shift = is_early ? -fraction_ : 1 - fraction_;  // share of the way from now to that frame
   const ClosestPoint q = frame.closest(x);
+  if (longest_way_ == 0) return {Vec3::Zero(), q.triangle};
   const Vec3 u = way_of(q, frame);
-  if (std::abs(shift) * longest_way_ < small_shift) return u;
-  return way_of(frame.closest(x + shift * u, q.triangle), frame);
+  if (std::abs(shift) * u.norm() < small_shift) return {u, q.triangle};
+  const ClosestPoint r = frame.closest(x + shift * u, q.triangle);
+  return {way_of(r, frame), r.triangle};
 }
 
-SignedDistance AnimatedBody::at(const Vec3& x) const { return at(x, way(x)); }
-
-SignedDistance AnimatedBody::at(const Vec3& x, const Vec3& u) const {
-  const double s = fraction_;
+SignedDistance AnimatedBody::at(const Vec3& x) const {
+  const double s = longest_way_ == 0 ? 0 : fraction_;
   if (s == 0) return first_->at(x);
   if (s == 1) return second_->at(x);
-  const SignedDistance a = first_->at(x - s * u), b = second_->at(x + (1 - s) * u);
+  return at(x, beside(x));
+}
+
+SignedDistance AnimatedBody::at(const Vec3& x, const Beside& near) const {
+  const double s = longest_way_ == 0 ? 0 : fraction_;
+  if (s == 0) return first_->at(x, near.triangle);
+  if (s == 1) return second_->at(x, near.triangle);
+  const SignedDistance a = first_->at(x - s * near.way, near.triangle),
+                       b = second_->at(x + (1 - s) * near.way, near.triangle);
   return {(1 - s) * a.value + s * b.value, (1 - s) * a.gradient + s * b.gradient};
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include "physics/base/cancel_scope.h"
 #include "physics/body/triangle_crossings.h"
@@ -33,9 +34,10 @@ double volume_of(const TriangleMesh& mesh, const Vec3& centre) {
 
 }  // namespace
 
-SurfaceSides::SurfaceSides(const TriangleMesh& mesh, const TriangleBvh& bvh)
+SurfaceSides::SurfaceSides(const TriangleMesh& mesh, const TriangleBvh& bvh, SurfaceTopology topology,
+                           SignTest test)
     : bvh_(bvh),
-      topology_(surface_topology(mesh)),
+      topology_(std::move(topology)),
       winding_(bvh),
       outer_(mesh.triangles.size(), unknown),
       dropped_(mesh.triangles.size(), 0) {
@@ -49,7 +51,7 @@ SurfaceSides::SurfaceSides(const TriangleMesh& mesh, const TriangleBvh& bvh)
   find_inner_walls(crossed);
   if (topology_.closed) {
     leave_out_unsound(crossed);
-    compare_signs(mesh);
+    compare_signs(mesh, test);
   }
 }
 
@@ -129,7 +131,7 @@ void SurfaceSides::compare_signs_at(int i, double reach, Comparison& sum) {
   sum.differing_known += is_cheap(q.triangle) && inside(x, q) != by_winding;
 }
 
-void SurfaceSides::compare_signs(const TriangleMesh& mesh) {
+void SurfaceSides::compare_signs(const TriangleMesh& mesh, SignTest test) {
   report_.rule = SignRule::sides;
   const double reach = 1e-3 * bounding_diagonal(mesh);
   Comparison sum;
@@ -137,7 +139,7 @@ void SurfaceSides::compare_signs(const TriangleMesh& mesh) {
   const bool few = sum.summed > very_dear * report_.samples;
   for (int i = 0; i < comparisons && !few; i += every)
     if (i % (every * every) != 0) compare_signs_at(i, reach, sum);
-  if (sum.summed <= dear * report_.samples)
+  if (test == SignTest::whole && sum.summed <= dear * report_.samples)
     for (int i = 0; i < comparisons; ++i)
       if (i % every != 0) compare_signs_at(i, reach, sum);
   report_.disagreement = report_.samples ? static_cast<double>(sum.differing) / report_.samples : 0;

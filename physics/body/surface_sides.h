@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "physics/body/exact_distance.h"
@@ -10,6 +11,12 @@
 
 namespace furrow::physics {
 
+/// At how many places the sides of a closed body are held against the winding number.
+enum class SignTest {
+  whole,     ///< 2000
+  short_one  ///< 400: of a body that has passed the whole one in another shape
+};
+
 /// Tells inside from outside. In a closed body the winding number is a whole number that changes only across
 /// triangles; over a part of the surface that nothing crosses it is one number on the outer side and one more
 /// on the inner side. So a point whose closest triangle lies in such a part needs no summation at all. The
@@ -17,9 +24,10 @@ namespace furrow::physics {
 /// Baerentzen & Aanaes 2005; Barill et al. 2018.
 class SurfaceSides {
  public:
-  /// References the tree (before drop()); drop(dropped()) is the caller's. Cost about 2 us a triangle when
-  /// closed, else a winding number a triangle.
-  SurfaceSides(const TriangleMesh& mesh, const TriangleBvh& bvh);
+  /// References the tree (before drop()); drop(dropped()) is the caller's; `topology` is of the mesh. Cost
+  /// about 2 us a triangle when closed, else a winding number a triangle.
+  SurfaceSides(const TriangleMesh& mesh, const TriangleBvh& bvh, SurfaceTopology topology,
+               SignTest test = SignTest::whole);
 
   /// True when x, whose closest point is `closest`, is inside the body (winding number > 1/2).
   bool inside(const Vec3& x, const ClosestPoint& closest) const;
@@ -29,7 +37,8 @@ class SurfaceSides {
   }
   double winding_number(const Vec3& x) const { return winding_.at(x); }
 
-  const SurfaceTopology& topology() const { return topology_; }
+  const SurfaceTopology& topology() const& { return topology_; }
+  SurfaceTopology topology() && { return std::move(topology_); }
   const std::vector<char>& dropped() const { return dropped_; }
   const SignReport& report() const { return report_; }
 
@@ -42,7 +51,7 @@ class SurfaceSides {
     int differing = 0, known = 0, differing_known = 0;
     std::int64_t summed = 0;
   };
-  void compare_signs(const TriangleMesh& mesh);
+  void compare_signs(const TriangleMesh& mesh, SignTest test);
   void compare_signs_at(int i, double reach, Comparison& sum);
   double beside(int triangle, double side) const;
 

@@ -3,9 +3,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <utility>
 
 namespace furrow::physics {
 namespace {
@@ -17,24 +19,29 @@ struct HalfEdge {
   bool forwards;
 };
 
-void merge_vertices(const TriangleMesh& mesh, SurfaceTopology& s) {
-  std::vector<int> order(mesh.vertices.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto less = [&](int i, int j) {
-    const Vec3 &a = mesh.vertices[i], &b = mesh.vertices[j];
-    if (a[0] != b[0]) return a[0] < b[0];
-    if (a[1] != b[1]) return a[1] < b[1];
-    return a[2] < b[2];
-  };
-  // an unused vertex may be NaN, which has no order
-  std::erase_if(order, [&](int i) { return !mesh.vertices[i].allFinite(); });
-  std::sort(order.begin(), order.end(), less);
-  std::vector<int> merged(mesh.vertices.size(), 0);
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    if (i > 0 && less(order[i - 1], order[i])) ++s.vertices;
-    merged[order[i]] = s.vertices;
+std::size_t hash_of(const Vec3& place) {
+  std::uint64_t sum = 0;
+  for (const double c : place) {
+    sum = (sum ^ std::bit_cast<std::uint64_t>(c + 0.0)) * 0x9e3779b97f4a7c15ull;  // never -0
+    sum ^= sum >> 29;
   }
-  ++s.vertices;
+  return sum;
+}
+
+/// Numbers places in the order in which vertices name them first. Unused vertices may be NaN: they have none.
+void merge_vertices(const TriangleMesh& mesh, SurfaceTopology& s) {
+  const std::vector<Vec3>& x = mesh.vertices;
+  const std::size_t mask = std::bit_ceil(2 * x.size() + 2) - 1;
+  std::vector<int> first(mask + 1, -1), merged(x.size(), 0);
+  s.vertices = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (!x[i].allFinite()) continue;
+    std::size_t at = hash_of(x[i]) & mask;
+    while (first[at] >= 0 && x[std::size_t(first[at])] != x[i]) at = (at + 1) & mask;
+    if (first[at] < 0) first[at] = static_cast<int>(i), merged[i] = s.vertices++;
+    merged[i] = merged[std::size_t(first[at])];
+  }
+  s.triangles.clear();
   s.triangles.reserve(mesh.triangles.size());
   for (const auto& [a, b, c] : mesh.triangles) s.triangles.push_back({merged[a], merged[b], merged[c]});
 }
@@ -49,8 +56,8 @@ void add_normals(const TriangleMesh& mesh, SurfaceTopology& s) {
     const Vec3 cross = (p[1] - p[0]).cross(p[2] - p[0]);
     const double longest2 =
         std::max({(p[1] - p[0]).squaredNorm(), (p[2] - p[1]).squaredNorm(), (p[0] - p[2]).squaredNorm()});
-    s.sound[t] = cross.norm() > 1e-9 * longest2;
-    if (!s.sound[t]) continue;
+    if (!(cross.norm() > 1e-9 * longest2)) continue;
+    s.sound[t] = s.joined[t];
     s.normals[t] = cross.normalized();
     for (int c = 0; c < 3; ++c) {
       const Vec3 e = p[(c + 1) % 3] - p[c], f = p[(c + 2) % 3] - p[c];
@@ -86,6 +93,7 @@ void join_neighbours(SurfaceTopology& s) {
   s.neighbours.assign(s.triangles.size(),
                       {SurfaceTopology::none, SurfaceTopology::none, SurfaceTopology::none});
   s.closed = true;
+  s.border_edges = s.irregular_edges = 0;
   const std::vector<HalfEdge> edges = sorted_half_edges(s);
   for (std::size_t i = 0, j = 0; i < edges.size(); i = j) {
     int balance = 0;
@@ -114,17 +122,19 @@ int fan_size(const SurfaceTopology& s, int t, int c) {
   }
 }
 
-void find_unsound(SurfaceTopology& s) {
+void find_joined(SurfaceTopology& s) {
+  s.joined.assign(s.triangles.size(), 0);
   std::vector<int> uses(s.vertices, 0), fan(s.vertices, -1);
   for (const auto& t : s.triangles)
     for (int v : t) ++uses[v];
   for (std::size_t t = 0; t < s.triangles.size(); ++t) {
     const auto& [a, b, c] = s.triangles[t];
     if (a == b || b == c || c == a) continue;
+    s.joined[t] = 1;
     for (int k = 0; k < 3; ++k) {
       const int v = s.triangles[t][k];
       if (fan[v] < 0) fan[v] = fan_size(s, static_cast<int>(t), k);
-      if (fan[v] != uses[v] || s.neighbours[t][k] == SurfaceTopology::none) s.sound[t] = 0;
+      if (fan[v] != uses[v] || s.neighbours[t][k] == SurfaceTopology::none) s.joined[t] = 0;
     }
   }
 }
@@ -133,11 +143,18 @@ void find_unsound(SurfaceTopology& s) {
 
 SurfaceTopology surface_topology(const TriangleMesh& mesh) {
   SurfaceTopology s;
-  merge_vertices(mesh, s);
-  add_normals(mesh, s);
-  join_neighbours(s);
-  find_unsound(s);
+  move_vertices(s, mesh);
   return s;
+}
+
+void move_vertices(SurfaceTopology& s, const TriangleMesh& mesh) {
+  const std::vector<std::array<int, 3>> before = std::move(s.triangles);
+  merge_vertices(mesh, s);
+  if (s.triangles != before) {
+    join_neighbours(s);
+    find_joined(s);
+  }
+  add_normals(mesh, s);
 }
 
 Vec3 pseudonormal(const SurfaceTopology& s, int triangle, Feature feature) {

@@ -17,14 +17,19 @@ struct SurfaceTopology {
   std::vector<std::array<int, 3>> neighbours;  ///< across the edges 01, 12, 20
   std::vector<Vec3> normals;                   ///< unit; zero where a triangle has no area
   std::vector<Vec3> corner_normals;            ///< a distinct position: sum of angle times normal
-  std::vector<char> sound;  ///< a triangle: has an area and three neighbours, no pinched corner
-  int border_edges = 0;     ///< edges of one triangle
-  int irregular_edges = 0;  ///< edges of more than two, or of two that run the same way
-  bool closed = false;      ///< every edge is run through as often forwards as backwards: w is a whole number
+  std::vector<char> joined;                    ///< a triangle: has three neighbours, no pinched corner
+  std::vector<char> sound;                     ///< and an area
+  int border_edges = 0;                        ///< edges of one triangle
+  int irregular_edges = 0;                     ///< edges of more than two, or of two that run the same way
+  bool closed = false;  ///< every edge is run through as often forwards as backwards: w is a whole number
 };
 
 /// Cost O(T log T). Triangles with two corners at one place are left aside: not sound, and no edge counts.
 SurfaceTopology surface_topology(const TriangleMesh& mesh);
+
+/// The topology of the same triangles with their vertices elsewhere: what surface_topology(mesh) gives. Cost
+/// O(T), a third of that, while the same vertices are at one place.
+void move_vertices(SurfaceTopology& topology, const TriangleMesh& mesh);
 
 /// The direction that tells the sides of the surface apart at a feature (Baerentzen & Aanaes 2005): the face
 /// normal, the sum of the two face normals on an edge, the angle-weighted sum at a corner. Not normalised.

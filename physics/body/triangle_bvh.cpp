@@ -70,20 +70,48 @@ Float4 triangle_distances(const TriangleBvh::Leaf& leaf, const Float4* p) {
 }  // namespace
 
 TriangleBvh::TriangleBvh(const TriangleMesh& mesh) : crowded_(mesh) {
-  Eigen::AlignedBox3d box;
   std::vector<Vec3> centroids;
   centroids.reserve(mesh.triangles.size());
-  for (const auto& t : mesh.triangles) {
+  for (const auto& t : mesh.triangles)
     centroids.push_back((mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3);
-    for (int v : t) box.extend(mesh.vertices[v]);
-  }
-  centre_ = box.center();
-  radius_ = box.sizes().maxCoeff() / 2;
+  surround(mesh);
   std::vector<int> order(mesh.triangles.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
   slot_of_.resize(order.size());
   build(centroids, mesh, order, 0, static_cast<int>(order.size()));
   refit(std::vector<char>(order.size(), 0));
+}
+
+void TriangleBvh::move(const TriangleMesh& mesh) {
+  crowded_ = CrowdedCorners(mesh);
+  surround(mesh);
+  for (std::size_t t = 0; t < slot_of_.size(); ++t)
+    for (int c = 0; c < 3; ++c) corners_[slot_of_[t]][c] = mesh.vertices[mesh.triangles[t][c]];
+  first_kept_ = 0;
+  refit(std::vector<char>(slot_of_.size(), 0));
+}
+
+void TriangleBvh::surround(const TriangleMesh& mesh) {
+  Eigen::AlignedBox3d box;
+  for (const auto& t : mesh.triangles)
+    for (int v : t) box.extend(mesh.vertices[v]);
+  centre_ = box.center();
+  radius_ = box.sizes().maxCoeff() / 2;
+}
+
+double TriangleBvh::surface_of_boxes() const {
+  Eigen::AlignedBox3f all;
+  double sum = 0;
+  for (const Node& node : nodes_)
+    for (int lane = 0; lane < 4; ++lane) {
+      const auto &m = node.middle, &h = node.half;
+      if (!(m[0][lane] < far_away)) continue;  // nothing is in it
+      const Eigen::Vector3f middle(m[0][lane], m[1][lane], m[2][lane]),
+          half(h[0][lane], h[1][lane], h[2][lane]);
+      if (&node == nodes_.data()) all.extend(middle - half).extend(middle + half);
+      sum += half_surface(half.cast<double>());
+    }
+  return sum / half_surface(all.sizes().cast<double>() / 2);
 }
 
 /// Whether a quarter of the triangles are lower than a fiftieth of their longest side. Boxes along x, y and z
@@ -173,6 +201,8 @@ void TriangleBvh::refit(std::span<const char> dropped) {
       }
       node_box[i].extend(box);
     }
+  oriented_.clear();
+  cones_.clear();
   if (has_needles()) orient(dropped);
   if (!crowded_.empty()) fit_cones(dropped);
 }
@@ -350,6 +380,7 @@ void TriangleBvh::search(Search& s) const {
 }
 
 ClosestPoint TriangleBvh::closest(const Vec3& x, int guess, std::int64_t* searched) const {
+  if (!is_kept(guess)) guess = first_kept_;
   const auto& [a, b, c] = corners(guess);
   const PointOnTriangle q = closest_on_triangle(x, a, b, c);
   const Vec3 local = x - centre_;

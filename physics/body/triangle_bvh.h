@@ -39,6 +39,13 @@ class TriangleBvh {
   /// Needs check_body(mesh). Cost O(T log T), 100,000 triangles: about 0.06 s.
   explicit TriangleBvh(const TriangleMesh& mesh);
 
+  /// The same triangles with their vertices elsewhere, none dropped: boxes are fitted anew, what lies in
+  /// which box stays. Needs check_body(mesh). Cost O(T), a tenth of a new tree.
+  void move(const TriangleMesh& mesh);
+  /// Surface of all boxes over that of the one around them [-]: how much a search has to look at. It grows
+  /// where triangles of a box have moved apart.
+  double surface_of_boxes() const;
+
   /// Leaves the triangles with dropped[t] != 0 out of closest(). At least one must stay
   /// (std::invalid_argument).
   void drop(std::span<const char> dropped);
@@ -57,6 +64,7 @@ class TriangleBvh {
   std::span<const Leaf> leaves() const { return leaves_; }
   const std::array<Vec3, 3>& corners(int triangle) const { return corners_[slot_of_[triangle]]; }  ///< [m]
   const Vec3& centre() const { return centre_; }
+  double radius() const { return radius_; }  ///< largest coordinate relative to centre() [m]
   /// Whether many triangles are needles, so that nodes have boxes along them besides.
   bool has_oriented_boxes() const { return !oriented_.empty(); }
   /// Whether a thousand triangles or more meet at a place, so that nodes have cones from there besides.
@@ -66,6 +74,11 @@ class TriangleBvh {
   int build(const std::vector<Vec3>& centroids, const TriangleMesh& mesh, std::vector<int>& order, int begin,
             int end);
   int add_leaf(const TriangleMesh& mesh, const std::vector<int>& order, int begin, int end);
+  void surround(const TriangleMesh& mesh);
+  bool is_kept(int triangle) const {
+    const int slot = slot_of_[triangle];
+    return leaves_[slot / leaf_size].a[0][slot % leaf_size] < far_away;
+  }
   void set_lane(int leaf, int lane, bool used);
   void refit(std::span<const char> dropped);
   bool has_needles() const;

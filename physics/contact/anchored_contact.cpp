@@ -49,8 +49,9 @@ void AnchoredContact::look(std::span<const Vec3> x, std::span<const double> inv_
     Touch& t = touches_[i];
     t.x = in_frame(x[i]);
     t.energy = t.push = t.stiffness = 0;
-    if (!(inv_mass[i] > 0)) return;
+    if (!(inv_mass[i] > 0) || is_beyond(i, t.x, options_.gap)) return;
     const SignedDistance field = collider_.smooth_at(t.x);
+    if (keeps_levels_) know_level(i, t.x, field.value);
     const double slope = field.gradient.norm();
     const double depth = options_.gap - t.nearer - field.value;
     const SoftPush push = soft_push(depth, options_.stiffness, soft_);
@@ -62,6 +63,16 @@ void AnchoredContact::look(std::span<const Vec3> x, std::span<const double> inv_
     t.depth = depth;
     t.slope = slope;
   });
+}
+
+void AnchoredContact::forget_levels() {
+  keeps_levels_ = true;
+  for (Touch& t : touches_) t.level = -std::numeric_limits<double>::infinity();
+}
+
+void AnchoredContact::know_level(std::size_t i, const Vec3& x, double level) {
+  touches_[i].asked = x;
+  touches_[i].level = level;
 }
 
 double AnchoredContact::energy() const {

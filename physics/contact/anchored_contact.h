@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -81,11 +82,25 @@ class AnchoredContact : public ContactTerm {
   Vec3 in_frame(const Vec3& x) const;  ///< the body's [m]
   const BodyPlace* place() const { return place_ ? &*place_ : nullptr; }
 
+  /// For a body that is dear to ask: look() leaves out what cannot be in the gap by the level that it was
+  /// told, or found, since the last of these calls; as long as the body stands.
+  void forget_levels();
+  void know_level(std::size_t i, const Vec3& x,
+                  double level);  ///< of particle i at x, in the body's frame [m]
+  /// Whether a particle at x is surely farther from the body than a distance [m].
+  bool is_beyond(std::size_t i, const Vec3& x, double distance) const {
+    const Touch& t = touches_[i];
+    return t.level - lipschitz * (x - t.asked).norm() > distance;
+  }
+
  private:
+  static constexpr double lipschitz = 2;  // bound on the change of the body's distance a metre
   struct Touch : ContactAnchor {
     Vec3 x = Vec3::Zero(), normal = Vec3::Zero();
     double energy = 0, push = 0, stiffness = 0;  ///< of the push [J], [N], [N/m]; 0: apart
     double depth = 0, slope = 1;                 ///< inside the gap [m]; length of the body's gradient [-]
+    Vec3 asked = Vec3::Zero();                   ///< where its level was [m]
+    double level = -std::numeric_limits<double>::infinity();  ///< -inf: unknown [m]
     /// From the anchor, along the surface [m].
     Vec3 way() const { return x - anchor - plane.dot(x - anchor) * plane; }
   };
@@ -94,6 +109,7 @@ class AnchoredContact : public ContactTerm {
 
   const Collider& collider_;
   AnchoredContactOptions options_;
+  bool keeps_levels_ = false;
   std::optional<BodyPlace> place_;  ///< none: positions are the body's
   double soft_, slip_;  ///< depth at which the push becomes linear, way at which friction slides [m]
   std::vector<Touch> touches_;

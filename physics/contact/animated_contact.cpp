@@ -9,9 +9,9 @@ namespace {
 /// The body next to a place where the way of its surface is known.
 struct Nearby : Collider {
   const AnimatedBody& body;
-  Vec3 way;
-  Nearby(const AnimatedBody& b, const Vec3& u) : body(b), way(u) {}
-  SignedDistance at(const Vec3& x) const override { return body.at(x, way); }
+  AnimatedBody::Beside surface;
+  Nearby(const AnimatedBody& b, const Vec3& x) : body(b), surface(b.beside(x)) {}
+  SignedDistance at(const Vec3& x) const override { return body.at(x, surface); }
 };
 
 }  // namespace
@@ -28,8 +28,8 @@ void AnimatedContact::begin_step(double from, double to) {
 
 void AnimatedContact::respond(int i, const Vec3& before, double dt, Vec3& x, Vec3& v, ContactCounts& counts) {
   if (!before.allFinite() || !x.allFinite() || is_clear(i, x)) return;
-  const Nearby body(body_, body_.way(x));
-  const Vec3 start = before + body_.share() * body.way;
+  const Nearby body(body_, x);
+  const Vec3 start = before + body_.share() * body.surface.way;
   ContactMemory& known = memory_[std::size_t(i)];
   if (before == known.x && !std::isnan(known.level)) {
     // What the last step ended with; the surface has carried it along.

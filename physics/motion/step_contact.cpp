@@ -33,10 +33,14 @@ std::vector<Vec3> StepContact::move_body(double from, double to, std::span<const
   if (body_.animated) {
     AnimatedBody& body = *body_.animated;
     body.prepare(from, to);
-    const auto way = [&](const Vec3& p) -> Vec3 { return body.share() * body.way(p); };
-    carry_anchors(way);
-    for (Vec3& p : carried)
-      if (body.at(p).value < 2 * body_.gap + body.travel()) p += way(p);
+    carry_anchors([&](const Vec3& p) -> Vec3 { return body.share() * body.way(p); });
+    forget_levels();
+    for (std::size_t i = 0; i < carried.size(); ++i) {
+      const AnimatedBody::Beside surface = body.beside(carried[i]);
+      const double level = body.at(carried[i], surface).value;
+      know_level(i, carried[i], level);
+      if (level < 2 * body_.gap + body.travel()) carried[i] += body.share() * surface.way;
+    }
   } else if (body_.motion) {
     const BodyPlace before = place_at(from);
     place_body(place_at(to));
@@ -77,9 +81,10 @@ StepContact::Beside StepContact::beside(std::span<const Vec3> carried, std::vect
   return result;
 }
 
-/// The end of a way in the body's frame, without what leads from within the gap farther in.
-Vec3 StepContact::slid(Vec3 from, const Vec3& to) const {
+/// The end of a particle's way in the body's frame, without what leads from within the gap farther in.
+Vec3 StepContact::slid(std::size_t i, Vec3 from, const Vec3& to) const {
   Vec3 rest = to - from;
+  if (is_beyond(i, from, body_.gap + rest.norm())) return to;
   for (int piece = 0; piece < most_pieces; ++piece) {
     const SignedDistance field = collider().at(from);
     const double room = field.value - body_.gap, length = rest.norm();
@@ -113,7 +118,7 @@ void StepContact::keep_out(std::span<const Vec3> start, std::span<const double> 
       const auto i = std::size_t(k);
       if (!(inv_mass[i] > 0)) continue;
       const Vec3 to = in_frame(x[i]);
-      const Vec3 end_of_way = slid(start[i], to);
+      const Vec3 end_of_way = slid(i, start[i], to);
       if (end_of_way == to) continue;
       x[i] = place() ? place()->to_world(end_of_way) : end_of_way;
     }

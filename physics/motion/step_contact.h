@@ -52,7 +52,7 @@ class StepContact : public AnchoredContact {
  private:
   BodyPlace place_at(double time) const;
   const Collider& collider() const;
-  Vec3 slid(Vec3 from, const Vec3& to) const;
+  Vec3 slid(std::size_t i, Vec3 from, const Vec3& to) const;
 
   BodyAround body_;
 };

@@ -85,10 +85,7 @@ Handled crush(std::uint64_t seed, const Handling& how) {
   std::uniform_real_distribution<double> noise(-0.5, 0.5);
   for (Vec3& x : cloth.particles.x) x = Vec3(x.x() - 0.15, x.y() + 0.01, 4e-3 * noise(random));
   for (Vec3& v : cloth.particles.v) v.z() = 0.5 * noise(random);
-  DistanceFieldOptions coarse;
-  coarse.tolerance = 1e-3;
-  coarse.outer_band = coarse.inner_band = 0.01;
-  AnimatedBody body(press(0.33, 0.02, 1.0), coarse);
+  AnimatedBody body(press(0.33, 0.02, 1.0));
   World world;
   world.animated = &body;
   return run(cloth, world, options_of(how));

@@ -8,6 +8,7 @@ furrow_add_tests(field physics LIBRARIES furrow::physics SOURCES
   body/distance_field_smooth_test.cpp
   body/distance_field_test.cpp
   body/exact_distance_test.cpp
+  body/moved_distance_test.cpp
   body/lattice_samples_test.cpp
   body/triangle_bvh_test.cpp
   body/winding_number_test.cpp

@@ -279,6 +279,7 @@ TEST_CASE("scene_file: a scene's faults are told with file, line, column and the
   CHECK(has(fault(maps), "a/s.toml:3:1: body.collider"));
   CHECK(has(fault(maps), "is for frames"));
   CHECK(has(fault(maps + "frames = \"f.pc2\"\ntolerance = 0.01\n"), "no tolerance"));
+  CHECK(has(fault("[body]\nmesh = \"b\"\nframes = \"f.pc2\"\ngradient = \"exact\"\n"), "no gradient"));
   CHECK(has(fault("[simulation]\nforce_dt = true\n"), "needs dt"));
   CHECK(has(fault("[simulation]\nseconds = 1979-05-27\n"),
             "a/s.toml:2:11: simulation.seconds is a date or a time"));

@@ -159,6 +159,11 @@ std::vector<Door> measures() {
            [](Cloth& c) {
              ExactDistance({c.particles.x, c.triangles});
            }},
+          {"moved",
+           [](Cloth& c) {
+             const Cloth whole = whole_cloth();
+             ExactDistance({whole.particles.x, whole.triangles}).moved({c.particles.x, c.triangles});
+           }},
           {"build", [](Cloth& c) {
              DistanceFieldOptions o;
              o.max_depth = o.band_depth = 3;
@@ -228,8 +233,10 @@ TEST_CASE(
       {"velocity missing", {"kinetic_energy"}},
       {"mass missing", {"kinetic_energy"}},
       {"inverse mass missing", {"kinetic_energy", "bring_out"}},
-      {"triangle beyond", {"vertex_normals", "check_body", "bounding_diagonal", "ExactDistance", "build"}},
-      {"triangle before", {"vertex_normals", "check_body", "bounding_diagonal", "ExactDistance", "build"}}};
+      {"triangle beyond",
+       {"vertex_normals", "check_body", "bounding_diagonal", "ExactDistance", "moved", "build"}},
+      {"triangle before",
+       {"vertex_normals", "check_body", "bounding_diagonal", "ExactDistance", "moved", "build"}}};
   for (const Door& door : measures())
     for (const Damage& damage : damages()) {
       Cloth cloth = whole_cloth();

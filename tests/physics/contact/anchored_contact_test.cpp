@@ -163,3 +163,47 @@ TEST_CASE("anchored_contact: a push without a direction keeps its energy") {
   CHECK(contact.energy() > 0);
   CHECK(contact.touching() == 0);
 }
+
+namespace {
+
+struct CountingFloor : Collider {
+  mutable int asked = 0;
+  SignedDistance at(const Vec3& x) const override {
+    ++asked;
+    return {x.y(), Vec3::UnitY()};
+  }
+};
+
+struct Remembering : AnchoredContact {
+  using AnchoredContact::AnchoredContact;
+  using AnchoredContact::forget_levels;
+};
+
+}  // namespace
+
+TEST_CASE(
+    "anchored_contact: what cannot have come into the gap is not asked for until levels are forgotten") {
+  const CountingFloor floor;
+  Remembering contact(floor, {0.3, 0.01, 1000}, 3);
+  std::vector<Vec3> x{{0, 0.009, 0}, {0, 0.1, 0}, {0, 1, 0}};
+  const std::vector<double> inv_mass(3, 1);
+  const auto asked = [&] {
+    const int before = floor.asked;
+    contact.look(x, inv_mass);
+    return floor.asked - before;
+  };
+  CHECK(asked() == 3);
+  CHECK(asked() == 3);
+  contact.forget_levels();
+  CHECK(asked() == 3);
+  CHECK(asked() == 1);
+  x[1].y() = 0.06;  // at 2 m a metre the distance may be 0.02 now, above the gap
+  CHECK(asked() == 1);
+  x[1].y() = 0.04;
+  CHECK(asked() == 2);
+  x[1].y() = 0.009;
+  CHECK(asked() == 2);
+  CHECK(contact.touching() == 2);
+  contact.forget_levels();
+  CHECK(asked() == 3);
+}
