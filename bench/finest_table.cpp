@@ -7,6 +7,7 @@
 // distance of the one surface from the other, by area.
 #include <cstdio>
 #include <ctime>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 

@@ -32,7 +32,7 @@ std::vector<CardRow> card(DrapeJob& job) {
       {"output", output, everyone, &job.output,
        "mesh to write, as it is worn; PLY keeps strain and distance. Several garments are a file each: "
        "worn.ply becomes worn-shirt.ply, {} stands for the garment's name"},
-      {"animation", output, everyone, &s.animation,
+      {"animation", output, few, &s.animation,
        "the way to rest, a frame an iteration, to write: pc2, mdd or glb"},
       {"subdivide", cloth, everyone, OrAuto{&job.subdivide}, between(0, 6),
        "refine the garment so many times (Loop), 0 to 6; auto (the default): as often as its edges need to "

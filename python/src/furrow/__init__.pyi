@@ -207,6 +207,7 @@ def drape(
     output: Optional[Path] = None,
     animation: Optional[Path] = None,
     subdivide: Union[int, Literal["auto"], None] = None,
+    finest: Optional[float] = None,
     bending_friction: Optional[float] = None,
     made_for: Optional[Path] = None,
     band: Optional[Mapping[str, float]] = None,

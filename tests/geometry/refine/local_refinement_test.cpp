@@ -141,7 +141,7 @@ TEST_CASE("local_refinement: with no face cut it is the mesh, on Loop's surface"
 TEST_CASE(
     "local_refinement: whatever is cut, the cloth is whole, as large as it was, and finer by one step a "
     "face") {
-  for (unsigned seed = 0; seed < 60; ++seed) {
+  for (unsigned seed = 0; seed < FURROW_PROPERTY_CASES; ++seed) {
     const Mesh mesh = lined_and_pressed(jittered(5, 4, 0.2, int(seed)));
     const LocalRefinement refined = cut_at_random(mesh, 1 + int(seed % 4), seed);
     const Mesh found = refined.mesh();
