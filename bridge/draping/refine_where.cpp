@@ -31,12 +31,12 @@ double bend_of(const geometry::Mesh& mesh, geometry::Edge e) {
   return std::atan2(n.cross(m).norm(), n.dot(m));
 }
 
-double mean_edge(const geometry::Mesh& mesh, geometry::Face f, const std::vector<double>& lengths) {
-  const auto [a, b, c] = geometry::edge_lengths(mesh, f, lengths);
-  return (a + b + c) / 3;
-}
-
 }  // namespace
+
+double size_of(const geometry::Mesh& mesh, geometry::Face f, const std::vector<double>& lengths) {
+  const auto [a, b, c] = geometry::edge_lengths(mesh, f, lengths);
+  return std::sqrt(4 / std::numbers::sqrt3 * geometry::triangle_area(a, b, c));
+}
 
 std::vector<double> want_of_refinement(const geometry::Mesh& mesh, const RefineWhere& where) {
   std::vector<double> want(mesh.num_faces(), 0);
@@ -50,7 +50,7 @@ std::vector<double> want_of_refinement(const geometry::Mesh& mesh, const RefineW
   for (const geometry::Face f : mesh.faces()) {
     const double pressed = -strain[f.idx()].smallest;
     if (!(pressed > 0)) continue;
-    const double height = 2 * mean_edge(mesh, f, rest) / std::numbers::pi * std::sqrt(pressed);
+    const double height = 2 * size_of(mesh, f, rest) / std::numbers::pi * std::sqrt(pressed);
     want[f.idx()] = std::max(want[f.idx()], height / where.seen);
   }
   return want;
@@ -62,7 +62,7 @@ bool LocalLevels::refine(const geometry::Mesh& at_rest) {
   std::vector<geometry::Face> faces;
   for (const geometry::Face f : at_rest.faces())
     if (want[f.idx()] > 1 && refined_.cuts(f) < refined_.depth() &&
-        mean_edge(at_rest, f, rest) >= 1.5 * where_.finest)
+        size_of(at_rest, f, rest) >= 1.5 * where_.finest)
       faces.push_back(f);
   std::stable_sort(faces.begin(), faces.end(),
                    [&](geometry::Face a, geometry::Face b) { return want[a.idx()] > want[b.idx()]; });

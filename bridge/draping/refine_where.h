@@ -10,10 +10,14 @@
 /// A garment that is refined where its cloth asks for it, from one rest to the next: for drape().
 namespace furrow::bridge {
 
+/// The edge of an equilateral triangle of a face's area, by the lengths of the edges [m].
+double size_of(const geometry::Mesh& mesh, geometry::Face f, const std::vector<double>& lengths);
+
 /// By face, how much finer it should be: the larger of
 ///   the angle that an edge of it is bent by, over RefineWhere::bend, and
 ///   where it is pressed together, the height of the folds that would take the strain up, over
-///   RefineWhere::seen: at two edges a fold, height = 2 h / pi sqrt(strain), for edges of the length h.
+///   RefineWhere::seen: at two edges a fold, height = 2 h / pi sqrt(strain), for a face of the size h
+///   (size_of()).
 /// More than 1: it asks to be cut. The mesh has its rest metric, and lies as the cloth rests. O(faces).
 std::vector<double> want_of_refinement(const geometry::Mesh& mesh, const RefineWhere& where);
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bridge/draping/refine_where.h"
 #include "geometry/fold/fold_base.h"
 #include "geometry/mesh/border_loops.h"
 #include "geometry/mesh/edge_metric.h"
@@ -228,15 +229,13 @@ int refinements_for_gap(const geometry::Mesh& garment, double wanted, double tol
 int refinements_for_edges(const geometry::Mesh& garment, double finest) {
   constexpr double most_vertices = 1e6;  // of the uniform mesh, which is made to take places from
   const std::vector<double> rest = geometry::rest_lengths(garment);
-  double longest = 0, vertices = double(garment.number_of_vertices());
-  for (const geometry::Face f : garment.faces()) {
-    const auto [a, b, c] = geometry::edge_lengths(garment, f, rest);
-    longest = std::max(longest, (a + b + c) / 3);
-  }
+  double largest = 0, vertices = double(garment.number_of_vertices());
+  for (const geometry::Face f : garment.faces())
+    largest = std::max(largest, bridge::size_of(garment, f, rest));
   int levels = 0;
-  while (levels < 6 && longest >= 1.5 * finest && 4 * vertices <= most_vertices) {
+  while (levels < 6 && largest >= 1.5 * finest && 4 * vertices <= most_vertices) {
     ++levels;
-    longest /= 2;
+    largest /= 2;
     vertices *= 4;
   }
   return levels;

@@ -91,8 +91,8 @@ TEST_CASE("refine_where: a bent edge asks as its angle does, a pressed face as h
     const geometry::Point p = pressed.point(v);
     pressed.point(v) = {0.98 * p.x(), 1.01 * p.y(), p.z()};
   }
-  const double mean = (0.2 + 0.1 * std::numbers::sqrt2) / 3,
-               height = 2 * mean / std::numbers::pi * std::sqrt(0.02);
+  const double size = std::sqrt(4 / std::numbers::sqrt3 * 0.005),
+               height = 2 * size / std::numbers::pi * std::sqrt(0.02);
   for (const double want : bridge::want_of_refinement(pressed, where))
     CHECK(want == Approx(height / 1e-3).epsilon(1e-9));
 }
