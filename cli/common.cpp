@@ -243,7 +243,7 @@ void report_spent_budget(double seconds, const std::vector<std::string>& files) 
   for (const std::string& file : names_of_files(files)) written += (written.empty() ? "" : ", ") + file;
   std::cerr << "error: the budget of " << text << " s of processor time is spent; "
             << (written.empty() ? "" : "the best state so far is in " + written + "; ")
-            << "give it more with --budget, or refine less (--subdivide)\n";
+            << "give it more with --budget, or refine it less\n";
 }
 
 void catch_interrupts() {

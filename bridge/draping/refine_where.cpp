@@ -60,10 +60,13 @@ bool LocalLevels::refine(const geometry::Mesh& at_rest) {
   const std::vector<double> want = want_of_refinement(at_rest, where_),
                             rest = geometry::rest_lengths(at_rest);
   std::vector<geometry::Face> faces;
-  for (const geometry::Face f : at_rest.faces())
-    if (want[f.idx()] > 1 && refined_.cuts(f) < refined_.depth() &&
-        size_of(at_rest, f, rest) >= 1.5 * where_.finest)
+  for (const geometry::Face f : at_rest.faces()) {
+    if (!(want[f.idx()] > 1) || size_of(at_rest, f, rest) < 1.5 * where_.finest) continue;
+    if (refined_.cuts(f) < refined_.depth())
       faces.push_back(f);
+    else
+      ran_out_ = ran_out_ || where_.finest > 0;
+  }
   std::stable_sort(faces.begin(), faces.end(),
                    [&](geometry::Face a, geometry::Face b) { return want[a.idx()] > want[b.idx()]; });
   constexpr double vertices_a_face = 2;  // three edges are cut, which two faces share, and others follow

@@ -34,7 +34,7 @@ class LocalLevels {
   /// has: those that want it, the ones that want it most first, until about so many vertices are reached as
   /// are allowed. Returns whether there were any.
   bool refine(const geometry::Mesh& at_rest);
-  /// Whether vertices ran out in refine().
+  /// Whether vertices, or cuts of a face that is larger than 1.5 times `finest`, ran out in refine().
   bool ran_out() const { return ran_out_; }
 
   /// Where the vertices of a mesh that refine() made lie on the one before: on its surface, and on a smooth

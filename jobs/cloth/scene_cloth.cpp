@@ -147,7 +147,7 @@ physics::Cloth cloth_of(const io::MeshFile& file, const io::Scene& scene,
   couple_cloth(file, scene, cloth, context);
   if (scene.material.membrane == bridge::Membrane::patches)
     context.warn("patches_are_triangles",
-                 "`membrane=patches` is for `furrow drape`: here its triangles stay as they are",
+                 "its membrane of patches is for `furrow drape`: here its triangles stay as they are",
                  scene.garment.string(), "material.membrane");
   return cloth;
 }

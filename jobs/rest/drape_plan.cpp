@@ -193,13 +193,14 @@ GivenGarment read_given(const io::Scene& scene, const BodyCollider* body, const 
     context.warn(
         "refined_everywhere",
         "`finest` does not refine a garment where three or more faces meet at an edge: it is refined "
-        "everywhere, as its gap to the body needs; `subdivide` says how often",
+        "everywhere, as its gap to the body needs; with `subdivide` in its place you say how often",
         "finest", "garment.subdivide");
   require_refinement(given.file.mesh->number_of_faces(), 4, given.scene.subdivide, "subdivide", context);
   if (given.scene.subdivide > 0 &&
       geometry::struts(given.file.mesh).size() > seam_ties(given.file.mesh).size())
     context.warn("struts_dropped",
-                 "`subdivide` drops the struts that the garment has, its bands among them; say `band` again",
+                 std::string(s.finest ? "`finest`" : "`subdivide`") +
+                     " drops the struts that the garment has, its bands among them; say `band` again",
                  "garment.subdivide", "bands");
   return given;
 }

@@ -25,12 +25,12 @@ const char* finer_field(const Draped& d) { return d.report.local() ? "finest" : 
 
 void remark_on_refinement(const Draped& d, std::vector<DrapeRemark>& remarks) {
   if (d.report.ran_out)
-    remarks.push_back(
-        {false,
-         {"vertices_ran_out",
-          d.name + ": more of it asks to be refined than its vertices allow; what folds most was "
-                   "refined first; a larger `finest` asks for less",
-          d.name, "finest"}});
+    remarks.push_back({false,
+                       {"vertices_ran_out",
+                        d.name + ": more of it asks to be refined than 20,000 vertices or its coarse faces "
+                                 "allow; what folds most was "
+                                 "refined first; a larger `finest` asks for less",
+                        d.name, "finest"}});
 }
 
 /// What the body does to the cloth that has come to rest on it.
@@ -521,6 +521,15 @@ namespace {
 
 Json to_json(const physics::Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
+/// Where it is refined locally: how often at most.
+int times_refined(const Draped& d) {
+  return d.report.local() ? int(d.report.levels.size()) - 1 : d.refinements;
+}
+
+Json local_json(const Draped& d) {
+  return {{"uniform_vertices", d.report.uniform_vertices}, {"ran_out", d.report.ran_out}};
+}
+
 Json to_json(const DrapeForces& f) {
   Json json{{"weight", to_json(f.weight)}, {"contact", to_json(f.contact)}};
   json["pins"] = json["bands"] = Json::array();
@@ -539,9 +548,10 @@ Json to_json(const Draped& d) {
   if (!d.measured) {
     Json part{{"garment", d.name},
               {"outcome", d.outcome()},
-              {"subdivide", d.refinements},
+              {"subdivide", times_refined(d)},
               {"seconds", d.seconds},
               {"levels", levels}};
+    if (d.report.local()) part["local"] = local_json(d);
     if (!d.written.empty()) part["written"] = d.written.string();
     return part;
   }
@@ -556,7 +566,7 @@ Json to_json(const Draped& d) {
             {"lines", jobs::to_json(d.lines)},
             {"gap", d.fit.on_body ? Json(d.gap) : Json(nullptr)},
             {"gap_asked", d.fit.on_body ? Json(d.wanted_gap) : Json(nullptr)},
-            {"subdivide", d.refinements},
+            {"subdivide", times_refined(d)},
             {"parts", d.end.parts.size()},
             {"end", jobs::to_json(d.end)},
             {"loose_parts", d.loose},
@@ -570,8 +580,7 @@ Json to_json(const Draped& d) {
                      {"vertices", d.loose_parts.vertices},
                      {"area_share", d.loose_parts.area_share},
                      {"done", word_of(d.loose_parts.use)}};
-  if (d.report.local())
-    json["local"] = {{"uniform_vertices", d.report.uniform_vertices}, {"ran_out", d.report.ran_out}};
+  if (d.report.local()) json["local"] = local_json(d);
   if (d.placed) json["placed"] = to_json(*d.placed);
   if (d.self_contact) json["self_contact"] = self_contact_json(d);
   if (d.other) json["other_search"] = to_json(*d.other);

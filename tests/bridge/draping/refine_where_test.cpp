@@ -137,6 +137,8 @@ TEST_CASE("drape: vertices, and the length of edges, bound where a garment is re
     CHECK((a + b + c) / 3 > 0.5 * 0.0225);
   }
   CHECK(coarse.mesh.number_of_vertices() > strip().number_of_vertices());
+  CHECK_FALSE(coarse.report.ran_out);
+  CHECK(hung(locally({.finest = 1e-6})).report.ran_out);  // three cuts do not make edges so short
   CHECK_THROWS_AS(hung(locally({.finest = -1})), std::invalid_argument);
   CHECK_THROWS_AS(hung(locally({.bend = 0})), std::invalid_argument);
   CHECK_THROWS_AS(hung(locally({.seen = 0})), std::invalid_argument);
