@@ -22,8 +22,8 @@ double soft_start_of(const io::MeshFile& garment, bool pinned);
 /// shape.
 int refinements_for_gap(const geometry::Mesh& garment, double wanted, double field_tolerance);
 
-/// With how many refinements all faces are smaller than one with edges of 1.5 times `finest` [m]; at most 6, and as many
-/// as leave the mesh below a million vertices.
+/// With how many refinements all faces are smaller than one with edges of 1.5 times `finest` [m]; at most 6,
+/// and as many as leave the mesh below a million vertices.
 int refinements_for_edges(const geometry::Mesh& garment, double finest);
 
 }  // namespace furrow::jobs
