@@ -57,7 +57,8 @@ LocalRefinement cut_at_random(const Mesh& mesh, int depth, unsigned seed) {
   std::mt19937 random(seed);
   for (int round = 0; round < depth; ++round) {
     std::vector<Face> some;
-    for (const Face f : refined.mesh().faces())
+    const Mesh now = refined.mesh();
+    for (const Face f : now.faces())
       if (random() % 6 == 0) some.push_back(f);
     refined.refine(some);
   }
