@@ -178,10 +178,10 @@ class Meshes {
         if (!(cloth.particles.inv_mass[i] > 0)) from.coarse[i] = cloth.particles.x[i];
     return from;
   }
-  void note(DrapeReport& report) const {
+  void note(const Level& end, DrapeReport& report) const {
     if (!local_) return;
     report.uniform_vertices = local_->uniform_vertices();
-    report.ran_out = local_->ran_out();
+    report.ran_out = local_->ran_out() || (!report.stopped && local_->out_of_cuts(lying(end)));
   }
 
  private:
@@ -266,7 +266,7 @@ DrapeReport drape(geometry::Mesh& garment, physics::Cloth& cloth, const physics:
     report.levels.push_back(now.report);
     if (report.falls || (report.stopped && cancels_way_up(o)())) break;
   }
-  meshes.note(report);
+  meshes.note(now, report);
   report.energy = energy_parts(now.cloth, o.settle.gravity, now.places);
   report.energy.contact = now.report.settle.contact_energy;
   garment = std::move(now.made);

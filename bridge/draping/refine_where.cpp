@@ -60,13 +60,10 @@ bool LocalLevels::refine(const geometry::Mesh& at_rest) {
   const std::vector<double> want = want_of_refinement(at_rest, where_),
                             rest = geometry::rest_lengths(at_rest);
   std::vector<geometry::Face> faces;
-  for (const geometry::Face f : at_rest.faces()) {
-    if (!(want[f.idx()] > 1) || size_of(at_rest, f, rest) < 1.5 * where_.finest) continue;
-    if (refined_.cuts(f) < refined_.depth())
+  for (const geometry::Face f : at_rest.faces())
+    if (want[f.idx()] > 1 && refined_.cuts(f) < refined_.depth() &&
+        size_of(at_rest, f, rest) >= 1.5 * where_.finest)
       faces.push_back(f);
-    else
-      ran_out_ = ran_out_ || where_.finest > 0;
-  }
   std::stable_sort(faces.begin(), faces.end(),
                    [&](geometry::Face a, geometry::Face b) { return want[a.idx()] > want[b.idx()]; });
   constexpr double vertices_a_face = 2;  // three edges are cut, which two faces share, and others follow
@@ -78,6 +75,15 @@ bool LocalLevels::refine(const geometry::Mesh& at_rest) {
   if (refined_.refine(faces) == 0) return false;
   ++rounds_;
   return true;
+}
+
+bool LocalLevels::out_of_cuts(const geometry::Mesh& at_rest) const {
+  const std::vector<double> want = want_of_refinement(at_rest, where_),
+                            rest = geometry::rest_lengths(at_rest);
+  return where_.finest > 0 && std::any_of(at_rest.faces_begin(), at_rest.faces_end(), [&](geometry::Face f) {
+           return want[f.idx()] > 1 && refined_.cuts(f) == refined_.depth() &&
+                  size_of(at_rest, f, rest) >= 1.5 * where_.finest;
+         });
 }
 
 Carried LocalLevels::carry(const geometry::Mesh& at_rest, const geometry::Mesh& refined) const {

@@ -34,7 +34,10 @@ class LocalLevels {
   /// has: those that want it, the ones that want it most first, until about so many vertices are reached as
   /// are allowed. Returns whether there were any.
   bool refine(const geometry::Mesh& at_rest);
-  /// Whether vertices, or cuts of a face that is larger than 1.5 times `finest`, ran out in refine().
+  /// Whether there is a face that is cut as often as may be, wants more, and is larger than 1.5 times
+  /// `finest`.
+  bool out_of_cuts(const geometry::Mesh& at_rest) const;
+  /// Whether vertices ran out in refine().
   bool ran_out() const { return ran_out_; }
 
   /// Where the vertices of a mesh that refine() made lie on the one before: on its surface, and on a smooth
