@@ -91,7 +91,7 @@ Carried LocalLevels::carry(const geometry::Mesh& at_rest, const geometry::Mesh& 
   geometry::Mesh shape = refined_.uniform(rounds_ - 1);
   std::vector<char> known(shape.num_vertices(), 0);
   for (const geometry::Vertex v : at_rest.vertices()) {
-    const geometry::Vertex u(geometry::Vertex::size_type(before[v]));
+    const auto u = geometry::Vertex(geometry::Vertex::size_type(before[v]));
     shape.point(u) = at_rest.point(v);
     known[u.idx()] = 1;
   }
