@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/mesh/mesh.h"
 #include "io/mesh/mesh_file.h"
 #include "jobs/base/inputs.h"
 
