@@ -90,7 +90,7 @@ struct DrapeReport {
   bool stopped = false;              ///< by go_on, or interrupted
   bool falls = false;                ///< a coarse level came to lie on nothing: there are no finer ones
   std::size_t uniform_vertices = 0;  ///< with DrapeOptions::where: as many it would have, refined everywhere
-  bool ran_out = false;              ///< of vertices, where more were asked for
+  bool ran_out = false;              ///< of vertices, or cuts of a face, where more were asked for
   bool local() const { return uniform_vertices > 0; }
 };
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include "bridge/arrays/convert.h"
 #include "geometry/figure/principal_strain.h"

@@ -40,8 +40,8 @@ class LocalLevels {
   /// Whether vertices ran out in refine().
   bool ran_out() const { return ran_out_; }
 
-  /// Where the vertices of a mesh that refine() made lie on the one before: on its surface, and on a smooth
-  /// one through its vertices.
+  /// Where the vertices of a mesh that refine() made begin: on the surface of the one before, and where
+  /// Loop's masks move them from there.
   Carried carry(const geometry::Mesh& at_rest, const geometry::Mesh& refined) const;
 
  private:
