@@ -23,15 +23,6 @@ std::array<Vertex, 3> targets_of(const Mesh& mesh, Face f) {
   return {mesh.target(h), mesh.target(next), mesh.target(mesh.next(next))};
 }
 
-/// A face keeps its index for one of its four parts; the other three are appended, face by face.
-std::array<Face, 4> parts_of(Face f, std::size_t faces) {
-  const auto first = Face::size_type(faces + 3 * f.idx());
-  return {f, Face(first), Face(first + 1), Face(first + 2)};
-}
-Face whole_of(Face f, std::size_t faces) {
-  return f.idx() < faces ? f : Face(Face::size_type((f.idx() - faces) / 3));
-}
-
 /// The same vertices, without a face.
 Mesh without_faces(const Mesh& mesh) {
   Mesh bare = mesh;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geometry/mesh/mesh.h"
+#include "geometry/refine/quarters.h"
 
 /// A mesh that is refined where it is asked to be, and nowhere else.
 namespace furrow::geometry {
@@ -81,7 +82,7 @@ class LocalRefinement {
   bool is_red(int level, Face f) const { return red_[std::size_t(level)][f.idx()] != 0; }
   bool is_cut(int level, Edge e) const;
   void cut(int level, Face f, std::size_t& count);
-  std::size_t middle(int level, Edge e) const { return on(level).number_of_vertices() + e.idx(); }
+  std::size_t middle(int level, Edge e) const { return middle_of(on(level), e).idx(); }
   const Mesh& on(int level) const { return levels_[std::size_t(level)]; }
   void visit(int level, Face f, Face old);
   void close(std::size_t leaf);

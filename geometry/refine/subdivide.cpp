@@ -16,6 +16,7 @@
 #include "geometry/mesh/carry_attributes.h"
 #include "geometry/mesh/edge_metric.h"
 #include "geometry/mesh/preconditions.h"
+#include "geometry/refine/quarters.h"
 #include "geometry/refine/refine_rest.h"
 #include "physics/base/cancel_scope.h"
 
@@ -71,11 +72,6 @@ void check(Mesh& mesh, int steps, int faces_per_face, const char* operation) {
   mesh.collect_garbage();
 }
 
-/// Mid-points are appended in the order of the edges.
-Vertex middle_of(const Mesh& before, Edge e) {
-  return Vertex(static_cast<Vertex::size_type>(before.number_of_vertices() + e.idx()));
-}
-
 /// Mid-points of the edges of lines get the line of both ends.
 void carry_lines(const Mesh& before, Mesh& mesh) {
   const auto line = find_map(mesh, attribute::line);
@@ -101,11 +97,6 @@ void carry_diagonals(const Mesh& before, Mesh& mesh) {
       if (!before.is_border(h))
         mark(middle_of(before, before.edge(before.next(h))), middle_of(before, before.edge(before.prev(h))));
   }
-}
-
-/// A face keeps its index for one of its four parts; the other three are appended, face by face.
-Face old_parent(Face f, std::size_t old_faces) {
-  return f.idx() < old_faces ? f : Face(static_cast<Face::size_type>((f.idx() - old_faces) / 3));
 }
 
 /// Where a mask puts the old vertices, and then the middle of each edge.
@@ -169,7 +160,7 @@ void quadrisect(Mesh& mesh) {
   for (Vertex v : mesh.vertices()) mesh.point(v) = points[v.idx()];
   const auto parent = [&](Face f) {
     physics::throw_if_cancelled("subdivide");
-    return old_parent(f, old_faces);
+    return whole_of(f, old_faces);
   };
   const auto origin = [&](Vertex v, Face in) {
     Origin at{in};
@@ -263,7 +254,7 @@ std::vector<Face> midpoint_subdivide(Mesh& mesh, int steps) {
     const std::size_t old_faces = parents.size();
     quadrisect<MidpointMask>(mesh);
     for (std::size_t f = old_faces; f < mesh.number_of_faces(); ++f)
-      parents.push_back(parents[old_parent(Face(static_cast<Face::size_type>(f)), old_faces).idx()]);
+      parents.push_back(parents[whole_of(Face(static_cast<Face::size_type>(f)), old_faces).idx()]);
   });
   return parents;
 }
