@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Garments that are refined where they fold beside the same refined everywhere, as a table of markdown: each
-// is draped twice by `furrow drape`'s defaults, with `subdivide` N and with `finest`, at the threads of the
-// machine.
-//   finest_table FINEST GARMENT BODY N [GARMENT BODY N …]
-// FINEST: [m]. Seconds: processor time of all threads, the reading of body and garment included. Apart:
-// distance of the one surface from the other, by area.
+// What it costs to know how a garment rests, refined everywhere and where it folds: error against cost, as a
+// table of markdown. It is draped by `furrow drape`'s defaults with `subdivide` 0 to N and with each `finest`
+// [m], at the threads of the machine.
+//   finest_table GARMENT BODY N FINEST…
+// Apart: distance by area from the rest of `subdivide` N. Seconds: processor time of all threads, the reading
+// of body and garment included.
 #include <cstdio>
 #include <ctime>
 #include <nlohmann/json.hpp>
@@ -45,32 +45,31 @@ Run run(const char* garment, const char* body, std::optional<int> subdivide, std
   return {std::move(report.garments.at(0)), seconds() - begin};
 }
 
-void row(double finest, const std::string& garment, const char* body, int subdivide) {
-  const Run uniform = run(garment.c_str(), body, subdivide, {}),
-            local = run(garment.c_str(), body, {}, finest);
-  const geometry::Mesh &all = uniform.draped.file.mesh, &some = local.draped.file.mesh;
-  const geometry::SurfaceDeviation apart = geometry::surface_deviation(all, some);
-  const std::size_t slash = garment.find_last_of('/') + 1;
-  const auto p99 = [](const Run& r) { return r.draped.fit.strain ? 100 * r.draped.fit.strain->p99 : 0; };
-  std::printf(
-      "| %s | %zu, %zu | %.1f, %.1f (%.1f ×) | %.2f, %.2f | %.2f, %.2f %% | %.1f, %.1f | %zu, %zu |%s\n",
-      garment.substr(slash, garment.rfind('.') - slash).c_str(), std::size_t(all.number_of_vertices()),
-      std::size_t(some.number_of_vertices()), uniform.seconds, local.seconds, uniform.seconds / local.seconds,
-      1e3 * apart.median, 1e3 * apart.p95, p99(uniform), p99(local), uniform.draped.angle_defect,
-      local.draped.angle_defect, uniform.draped.crossings.pairs, local.draped.crossings.pairs,
-      uniform.draped.succeeds() && local.draped.succeeds() ? "" : " not at rest");
+void row(const std::string& name, const Run& run, const Run& best) {
+  const geometry::Mesh &fine = best.draped.file.mesh, &mesh = run.draped.file.mesh;
+  const geometry::SurfaceDeviation apart = geometry::surface_deviation(fine, mesh);
+  std::printf("| %s | %zu | %.1f | %.2f, %.2f | %.2f %% | %.1f | %zu |%s\n", name.c_str(),
+              std::size_t(mesh.number_of_vertices()), run.seconds, 1e3 * apart.median, 1e3 * apart.p95,
+              run.draped.fit.strain ? 100 * run.draped.fit.strain->p99 : 0, run.draped.angle_defect,
+              run.draped.crossings.pairs, run.draped.succeeds() ? "" : " not at rest");
   std::fflush(stdout);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) try {
-  if (argc < 5 || argc % 3 != 2) throw std::invalid_argument("usage: finest_table FINEST GARMENT BODY N …");
+  if (argc < 4) throw std::invalid_argument("usage: finest_table GARMENT BODY N FINEST…");
+  const int levels = std::stoi(argv[3]);
+  const Run best = run(argv[1], argv[2], levels, {});
   std::puts(
-      "| garment | vertices: all, some | seconds | apart: median, p95 [mm] | strain p99 | angle defect "
-      "[rad/m²] | "
-      "crossings |\n| --- | --- | --- | --- | --- | --- | --- |");
-  for (int i = 2; i + 2 < argc; i += 3) row(std::stod(argv[1]), argv[i], argv[i + 1], std::stoi(argv[i + 2]));
+      "| refined | vertices | seconds | apart: median, p95 [mm] | strain p99 | angle defect [rad/m²] | "
+      "crossings "
+      "|\n| --- | --- | --- | --- | --- | --- | --- |");
+  for (int i = 0; i < levels; ++i)
+    row("`--subdivide " + std::to_string(i) + "`", run(argv[1], argv[2], i, {}), best);
+  row("`--subdivide " + std::to_string(levels) + "`", best, best);
+  for (int i = 4; i < argc; ++i)
+    row(std::string("`--finest ") + argv[i] + "`", run(argv[1], argv[2], {}, std::stod(argv[i])), best);
 } catch (const std::exception& e) {
   std::fprintf(stderr, "error: %s\n", e.what());
   return 1;

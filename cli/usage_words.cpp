@@ -86,7 +86,8 @@ std::string words_of_range(const CLI::App& app, const std::string& what) {
   for (const char* unit : {"cm", "mm"})
     if (is_length && !*end && help.empty() && most < 1e300 && number > most)
       help = in_metres(number, unit, least, most);
-  return option + " takes a number, " + range_text(number, least, most) + ", not " + value + help;
+  return option + " takes a " + (std::isinf(number) ? "finite " : "") + "number, " +
+         range_text(number, least, most) + ", not " + value + help;
 }
 
 /// CLI11's message for a word that is none of a list, with the nearest one. A file where an action belongs is

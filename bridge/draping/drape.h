@@ -21,8 +21,8 @@ struct DrapeWork {
 /// Where a garment is refined (want_of_refinement()).
 struct RefineWhere {
   double finest = 0;   ///< a face that is cut has the area of one with edges 1.5 times as long [m]; >= 0
-  double bend = 0.2;   ///< angle across an edge that asks for finer ones [rad]; > 0
-  double seen = 3e-4;  ///< height of folds that would be seen [m]; > 0
+  double bend = 0.15;  ///< angle across an edge that asks for finer ones [rad]; > 0
+  double seen = 2e-4;  ///< height of folds that would be seen [m]; > 0
   std::size_t most_vertices = 20000;  ///< about
 };
 

@@ -66,8 +66,8 @@ void remark_on_contact(const Draped& d, std::vector<DrapeRemark>& remarks) {
           d.name + ": " + std::to_string(d.too_near) + (d.too_near == 1 ? " vertex is" : " vertices are") +
               " nearer to the body than the gap of " + geometry::length_text(d.gap) + ", down to " +
               geometry::length_text(fit.distance.min) +
-              "; the cloth is too tight for it there, or the body leaves no room",
-          d.name, ""}});
+              "; the cloth is too tight for it there, or the body leaves no room: a smaller `gap` may do",
+          d.name, "gap"}});
 }
 
 /// A garment that lay well inside the body as it was given.
