@@ -16,6 +16,23 @@ struct BakeArguments : CommonArguments {
   BakeJob job;
 };
 
+Lines bake_lines(const Json& report) {
+  Lines lines{"maps of " + std::to_string(count_of(report, "size")) + " x " +
+              std::to_string(count_of(report, "size")) + " texels, " +
+              std::to_string(count_of(report, "covered_texels")) + " covered; displacement at most " +
+              length(report, "largest_displacement")};
+  for (const auto& [key, words] : {std::pair("unmatched_texels", "texels found no wrinkled mesh"),
+                                   {"overlapping_texels", "texels lie in two charts"}})
+    if (const long long n = count_of(report, key))
+      lines.push_back("look at: " + std::to_string(n) + " " + words);
+  if (const Json& check = table_of(report, "check"); !check.empty()) {
+    const Json& to_high = table_of(check, "to_high");
+    lines.push_back("check: the map's surface lies " + length(to_high, "median") + " (median) to " +
+                    length(to_high, "max") + " from the wrinkled mesh");
+  }
+  return lines;
+}
+
 int bake(BakeArguments& a) {
   BakeJob& job = a.job;
   a.out = job.prefix;
@@ -38,8 +55,6 @@ int bake(BakeArguments& a) {
   return report.cancelled ? exit_interrupted : exit_ok;
 }
 
-}  // namespace
-
 void add_bake(CLI::App& app, int& exit_code) {
   auto a = std::make_shared<BakeArguments>();
   CLI::App* sub = app.add_subcommand(
@@ -56,4 +71,7 @@ void add_bake(CLI::App& app, int& exit_code) {
   sub->callback([a, &exit_code] { exit_code = bake(*a); });
 }
 
+const Subcommand bake_subcommand(170, add_bake);
+
+}  // namespace
 }  // namespace furrow::cli

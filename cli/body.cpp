@@ -60,8 +60,6 @@ int body(BodyArguments& a) {
   return exit_not_converged;
 }
 
-}  // namespace
-
 void add_body(CLI::App& app, int& exit_code) {
   auto a = std::make_shared<BodyArguments>();
   CLI::App* sub =
@@ -76,4 +74,7 @@ void add_body(CLI::App& app, int& exit_code) {
   sub->callback([a, &exit_code] { exit_code = body(*a); });
 }
 
+const Subcommand body_subcommand(180, add_body);
+
+}  // namespace
 }  // namespace furrow::cli

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/move/chart.h"
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
@@ -41,6 +42,25 @@ ChartJob job_of(const ChartArguments& a) {
   return job;
 }
 
+Lines chart_lines(const Json& report) {
+  Lines lines{text_of(report, "says")};
+  std::vector<const Json*> good;
+  for (const Json& c : list_of(report, "candidates"))
+    if (text_of(c, "verdict") == "meets") good.push_back(&c);
+  std::stable_sort(good.begin(), good.end(),
+                   [](const Json* a, const Json* b) { return value_of(*a, "cost") < value_of(*b, "cost"); });
+  const std::size_t most = 4;
+  for (std::size_t i = 0; i < std::min(most, good.size()); ++i)
+    lines.push_back(text_of(*good[i], "name") + ": error " + per_cent(value_of(*good[i], "error")) + ", " +
+                    number(value_of(*good[i], "cost")) + " s a simulated second");
+  const std::size_t missed = list_of(report, "candidates").size() - good.size();
+  std::string rest =
+      good.size() > most ? std::to_string(good.size() - most) + " more are accurate enough" : "";
+  if (missed) rest += (rest.empty() ? "" : ", ") + std::to_string(missed) + " are not, or were not run";
+  if (!rest.empty()) lines.push_back(rest);
+  return lines;
+}
+
 int chart(const ChartArguments& a) {
   const ChartJob job = job_of(a);
   catch_interrupts();
@@ -54,8 +74,6 @@ int chart(const ChartArguments& a) {
     std::cerr << "error: " << a.in << ": " << worded(words(report.judgement, report.scene_dt)) << "\n";
   return code;
 }
-
-}  // namespace
 
 void add_chart(CLI::App& app, int& exit_code) {
   auto a = std::make_shared<ChartArguments>();
@@ -74,4 +92,7 @@ void add_chart(CLI::App& app, int& exit_code) {
   sub->callback([a, &exit_code] { exit_code = chart(*a); });
 }
 
+const Subcommand chart_subcommand(100, add_chart);
+
+}  // namespace
 }  // namespace furrow::cli

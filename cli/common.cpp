@@ -16,7 +16,6 @@
 #include "cli/help.h"
 #include "cli/print_text.h"
 #include "jobs/base/finite_report.h"
-#include "jobs/base/read_inputs.h"
 
 namespace furrow::cli {
 namespace {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/rest/drape.h"
 
+#include <cmath>
+#include <cstdio>
 #include <iostream>
 #include <memory>
 
@@ -148,6 +150,118 @@ int tell_remarks(const DrapeJobReport& report, const DrapeArguments& a, Terminal
   return exit_code_of(report.cancelled() && !report.budget_spent, !report.fails() && !report.budget_spent);
 }
 
+/// "not refined", "refined once", "refined 3 times".
+std::string refined(long long times) {
+  return times == 0   ? "not refined"
+         : times == 1 ? "refined once"
+                      : "refined " + std::to_string(times) + " times";
+}
+
+/// "waist +4.1 +- 0.2 cm", and so on, over all starts.
+void add_starts(Lines& lines, const Json& report) {
+  const Json& starts = table_of(report, "starts");
+  if (starts.empty()) return;
+  std::string text = std::to_string(count_of(starts, "resting")) + " of " +
+                     std::to_string(count_of(starts, "asked")) + " starts at rest, that of start " +
+                     std::to_string(count_of(starts, "chosen")) + " taken";
+  for (const Json& s : list_of(starts, "spread")) {
+    const std::string name = text_of(s, "name");
+    const bool ease = name.rfind("ease_", 0) == 0;
+    char part[96];
+    if (ease)
+      std::snprintf(part, sizeof part, "; %s %+.1f +- %.2f cm", name.c_str() + 5, 100 * value_of(s, "mean"),
+                    100 * value_of(s, "deviation"));
+    else if (name == "hem_height")
+      std::snprintf(part, sizeof part, "; hem at %.1f +- %.2f cm", 100 * value_of(s, "mean"),
+                    100 * value_of(s, "deviation"));
+    else if (name == "energy")
+      std::snprintf(part, sizeof part, "; energy %.4g +- %.2g J", value_of(s, "mean"),
+                    value_of(s, "deviation"));
+    else
+      continue;
+    text += part;
+  }
+  lines.push_back(text);
+}
+
+/// "brought from anna.obj: height x 1.03, arms turned by 28 degrees, legs by 8; moved by 7 cm, …".
+void add_placed(Lines& lines, const Json& placed) {
+  if (placed.empty()) return;
+  const Json& turned = table_of(placed, "turned");
+  const auto degrees = [&](const char* left, const char* right) {
+    const double most = std::fmax(value_of(turned, left), value_of(turned, right));
+    return std::to_string(std::lround(std::isfinite(most) ? most : 0)) + " degrees";
+  };
+  char scale[32];
+  std::snprintf(scale, sizeof scale, "%.3g", value_of(placed, "height_scale"));
+  lines.push_back("brought from " + text_of(placed, "made_for") + ": height x " + scale +
+                  ", arms turned by " + degrees("left_arm", "right_arm") + ", legs by " +
+                  degrees("left_leg", "right_leg") + "; moved by " + length(placed, "mean_move") +
+                  ", at most " + length(placed, "farthest_move") + "; " +
+                  per_cent(value_of(placed, "inside_share")) + " of it began inside the body");
+}
+
+/// Of one garment on a body.
+void add_draped(Lines& lines, const Json& report) {
+  const Json& levels = list_of(report, "levels");
+  const long long vertices = levels.empty() ? 0 : count_of(levels.back(), "vertices");
+  const Json& local = table_of(report, "local");
+  lines.push_back(text_of(report, "garment") + ": " + text_of(report, "outcome") + " (" +
+                  std::to_string(vertices) + " vertices, " +
+                  (local.empty() ? refined(count_of(report, "subdivide"))
+                                 : "refined where it folds; as fine everywhere, " +
+                                       std::to_string(count_of(local, "uniform_vertices"))) +
+                  ", " + number(value_of(report, "seconds")) + " s)");
+  if (!report.contains("fit")) return lines.push_back("not measured: `furrow fit` measures what was written");
+  const std::string asked = length(report, "gap_asked"), taken = length(report, "gap");
+  if (table_of(table_of(report, "fit"), "distance").empty())
+    lines.push_back("no body: it hangs from its pins");
+  else
+    lines.push_back("gap: " + asked + " asked, " + (taken == asked ? "" : taken + " aimed at, ") +
+                    length(table_of(table_of(report, "fit"), "distance"), "min") + " at the nearest place; " +
+                    std::to_string(count_of(report, "touching")) + " vertices touch the body");
+  add_placed(lines, table_of(report, "placed"));
+  add_starts(lines, report);
+  add_fit_lines(lines, table_of(report, "fit"));
+  if (const Json& contact = table_of(report, "self_contact"); contact.contains("crossings_without"))
+    lines.push_back("cloth keeps off cloth: without that " +
+                    counted(count_of(contact, "crossings_without"), "pair") + " of faces crossed");
+  add_crossings(lines, report);
+}
+
+Lines drape_lines(const Json& report) {
+  Lines lines;
+  const Json& garments = list_of(report, "garments");
+  if (garments.empty()) {
+    add_draped(lines, report);
+    return lines;
+  }
+  for (const Json& d : garments) {
+    if (!d.contains("fit")) {
+      add_draped(lines, d);
+      continue;
+    }
+    const Json& strain = table_of(table_of(d, "fit"), "strain");
+    lines.push_back(text_of(d, "garment") + ": " + text_of(d, "outcome") + "; " +
+                    per_cent(value_of(strain, "share_over")) + " of the cloth strained over " +
+                    per_cent(value_of(strain, "over")) +
+                    (table_of(d, "fit").value("body_height", Json()).is_null()
+                         ? ""
+                         : "; ease " + ease_text(table_of(d, "fit"))));
+  }
+  for (const Json& p : list_of(table_of(report, "layers"), "pairs")) {
+    const double compared = value_of(p, "compared");
+    lines.push_back(text_of(p, "outer") + " over " + text_of(p, "inner") + ": " +
+                    counted(count_of(p, "crossings"), "pair") + " of faces cross, " +
+                    std::to_string(count_of(p, "crossings_at_start")) + " as given" +
+                    (compared > 0
+                         ? "; order kept at " + per_cent(value_of(p, "outside") / compared) + " of " +
+                               std::to_string(count_of(p, "compared")) + " vertices that are near"
+                         : ""));
+  }
+  return lines;
+}
+
 int drape(const DrapeArguments& a) {
   catch_interrupts();
   Terminal terminal(a, a.job.budget);
@@ -187,8 +301,6 @@ int drape(const DrapeArguments& a) {
   return code == exit_ok && interrupted() ? exit_interrupted : code;
 }
 
-}  // namespace
-
 void add_drape(CLI::App& app, int& exit_code) {
   auto a = std::make_shared<DrapeArguments>();
   a->camera.size = "900,1100";
@@ -226,4 +338,7 @@ void add_drape(CLI::App& app, int& exit_code) {
   });
 }
 
+const Subcommand drape_subcommand(130, add_drape);
+
+}  // namespace
 }  // namespace furrow::cli

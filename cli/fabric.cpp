@@ -302,8 +302,6 @@ int fabric(const FabricArguments& a) {
   return list(a);
 }
 
-}  // namespace
-
 void add_fabric(CLI::App& app, int& exit_code) {
   auto a = std::make_shared<FabricArguments>();
   CLI::App* sub =
@@ -339,4 +337,7 @@ void add_fabric(CLI::App& app, int& exit_code) {
   });
 }
 
+const Subcommand fabric_subcommand(140, add_fabric);
+
+}  // namespace
 }  // namespace furrow::cli

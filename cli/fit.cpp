@@ -68,6 +68,32 @@ void write_picture(const FitJobReport& report, const FitArguments& a, const Comm
   save_camera(options, a.camera);
 }
 
+Lines fit_lines(const Json& report) {
+  Lines lines;
+  const Json& garments = list_of(report, "garments");
+  if (garments.empty()) {
+    add_fit_lines(lines, report);
+    for (const char* key : {"tight_zones", "loose_zones"})
+      if (const Json& zones = list_of(report, key); !zones.empty())
+        lines.push_back("look at: " + counted(static_cast<long long>(zones.size()), "zone") + " that " +
+                        (zones.size() == 1 ? "is " : "are ") + std::string(key).substr(0, 5) +
+                        ", the largest at " + per_cent(value_of(zones[0], "height_share")) +
+                        " of the body's height, " + text_of(zones[0], "side"));
+    add_crossings(lines, report);
+    return lines;
+  }
+  for (const Json& g : garments) {
+    const Json& strain = table_of(g, "strain");
+    lines.push_back(text_of(g, "garment") + ": " +
+                    (strain.empty()
+                         ? std::string("strain unknown")
+                         : per_cent(value_of(strain, "share_over")) + " of the cloth strained over " +
+                               per_cent(value_of(strain, "over"))) +
+                    "; ease " + ease_text(g));
+  }
+  return lines;
+}
+
 void fit(const FitArguments& a) {
   check_call(a);
   Terminal terminal(a);
@@ -83,8 +109,6 @@ void fit(const FitArguments& a) {
     next = {"furrow", "fit", a.worn[0], "--body", name_of(a.job.bodies[0], ""), "--picture", "fit.png"};
   print_report(json, a, {fit_lines(json), {a.out, a.picture}, next});
 }
-
-}  // namespace
 
 void add_fit(CLI::App& app) {
   auto a = std::make_shared<FitArguments>();
@@ -113,4 +137,7 @@ void add_fit(CLI::App& app) {
   });
 }
 
+const Subcommand fit_subcommand(150, add_fit);
+
+}  // namespace
 }  // namespace furrow::cli

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/chain/keep.h"
 
+#include <algorithm>
 #include <memory>
 
 #include "cli/camera_options.h"
@@ -36,6 +37,35 @@ KeepJob job_of(const KeepArguments& a) {
   return job;
 }
 
+Lines keep_lines(const Json& report) {
+  const Json& drawn = list_of(report, "lines");
+  const auto fails = [](const Json& line) { return text_of(line, "verdict").rfind("held", 0) != 0; };
+  const auto count = [&](const char* verdict) {
+    return std::count_if(drawn.begin(), drawn.end(),
+                         [&](const Json& line) { return text_of(line, "verdict") == verdict; });
+  };
+  const auto n = std::count_if(drawn.begin(), drawn.end(), fails);
+  const auto in_calm = count("may hold"), open = count("not known");
+  Lines lines{std::to_string(drawn.size() - static_cast<std::size_t>(n)) + " of " +
+              counted(static_cast<long long>(drawn.size()), "line") + " will hold" +
+              (in_calm > 0 ? ", " + std::to_string(in_calm) + " more where nothing blows" : "") +
+              (open > 0 ? ", of " + std::to_string(open) + " it is not known" : "")};
+  for (const bool failing : {true, false})  // what fails first
+    for (const Json& line : drawn)
+      if (fails(line) == failing)
+        lines.push_back(name_of_line(line) + ": " + text_of(line, "words") + " (asked " +
+                        length(line, "asked") + ", drawn " + length(line, "smoothed") + ", left " +
+                        length_or_unknown(value_of(line, "height") * value_of(line, "kept")) + ")");
+  if (lines.size() > 6) {
+    const std::size_t more = lines.size() - 5;
+    lines.resize(5);
+    lines.push_back("and " + counted(static_cast<long long>(more), "more line"));
+  }
+  lines.push_back(balance_of(report, "", "the shape"));
+  add_crossings(lines, report);
+  return lines;
+}
+
 int keep(const KeepArguments& a) {
   catch_interrupts();
   Terminal terminal(a, a.job.budget);
@@ -66,8 +96,6 @@ int keep(const KeepArguments& a) {
                       report.all_hold() && !report.budget_spent);
 }
 
-}  // namespace
-
 void add_keep(CLI::App& app, int& exit_code) {
   auto a = std::make_shared<KeepArguments>();
   CLI::App* sub = app.add_subcommand(
@@ -90,4 +118,7 @@ void add_keep(CLI::App& app, int& exit_code) {
   sub->callback([a, &exit_code] { exit_code = keep(*a); });
 }
 
+const Subcommand keep_subcommand(90, add_keep);
+
+}  // namespace
 }  // namespace furrow::cli

@@ -164,6 +164,14 @@ void check_call(const RenderArguments& a) {
   if (!a.captions.empty() && !a.strip) throw UsageError("--captions stand under the pictures of a --strip");
 }
 
+Lines render_lines(const Json& report) {
+  Lines lines{"picture of " + std::to_string(count_of(report, "width")) + " x " +
+              std::to_string(count_of(report, "height")) + " pixels"};
+  if (const long long n = count_of(report, "crossing_pairs"))
+    lines.push_back("look at: " + counted(n, "pair") + " of faces cross, in magenta");
+  return lines;
+}
+
 void render(RenderArguments a) {
   check_call(a);
   take_noted_frame(a, a.meshes);
@@ -192,8 +200,6 @@ void render(RenderArguments a) {
                   {"written", a.out}};
   print_report(json, a, {render_lines(json), {a.out, a.camera.save_camera}});
 }
-
-}  // namespace
 
 void add_render(CLI::App& app) {
   auto a = std::make_shared<RenderArguments>();
@@ -231,4 +237,7 @@ void add_render(CLI::App& app) {
   sub->callback([a] { render(*a); });
 }
 
+const Subcommand render_subcommand(120, add_render);
+
+}  // namespace
 }  // namespace furrow::cli

@@ -26,6 +26,19 @@ FieldJob job_of(const SdfArguments& a) {
   return job;
 }
 
+Lines sdf_lines(const Json& report) {
+  Lines lines{"field of " + std::to_string(count_of(report, "samples")) + " samples, " +
+              number(1e-6 * value_of(report, "bytes")) + " MB, in " + number(value_of(report, "seconds")) +
+              " s"};
+  const Json& error = table_of(report, "error");
+  lines.push_back("error: " + length(error, "mean") + " on average, at most " + length(error, "max") + "; " +
+                  length(report, "tolerance") + " asked");
+  if (const Json& at = table_of(report, "at"); !at.empty())
+    lines.push_back("there: distance " + length(at, "distance") + ", exactly " +
+                    length(at, "exact_distance"));
+  return lines;
+}
+
 void sdf(const SdfArguments& a) {
   const FieldJob job = job_of(a);
   catch_interrupts();
@@ -39,8 +52,6 @@ void sdf(const SdfArguments& a) {
                             : std::vector<std::string>{"furrow", "drape", "GARMENT", "--body", a.body_path,
                                                        "--cache", a.body.cache.string(), "-o", "worn.ply"}});
 }
-
-}  // namespace
 
 void add_sdf(CLI::App& app) {
   auto a = std::make_shared<SdfArguments>();
@@ -64,4 +75,7 @@ void add_sdf(CLI::App& app) {
   sub->callback([a] { sdf(*a); });
 }
 
+const Subcommand sdf_subcommand(110, add_sdf);
+
+}  // namespace
 }  // namespace furrow::cli

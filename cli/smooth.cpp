@@ -16,6 +16,11 @@ struct SmoothArguments : CommonArguments {
   SmoothJob job;
 };
 
+Lines smooth_lines(const Json& report) {
+  return {"smoothed " + std::to_string(count_of(report, "vertices")) + " vertices in " +
+          counted(count_of(report, "iterations"), "pair") + " of steps"};
+}
+
 void smooth(SmoothArguments& a) {
   a.job.mesh = std::filesystem::path(a.in);
   a.job.frame = a;
@@ -27,8 +32,6 @@ void smooth(SmoothArguments& a) {
   json["written"] = a.out;
   print_report(json, a, {smooth_lines(json), {a.out}});
 }
-
-}  // namespace
 
 void add_smooth(CLI::App& app) {
   auto a = std::make_shared<SmoothArguments>();
@@ -42,4 +45,7 @@ void add_smooth(CLI::App& app) {
   sub->callback([a] { smooth(*a); });
 }
 
+const Subcommand smooth_subcommand(40, add_smooth);
+
+}  // namespace
 }  // namespace furrow::cli

@@ -115,6 +115,25 @@ void check_output_name(const StrokesArguments& a) {
   if (io::ending_of(a.in) != ".json" || !same_file(a.out, a.in)) check_replaced({a.out}, {a.in}, terminal);
 }
 
+Lines strokes_lines(const Json& report) {
+  const Json& strokes = list_of(report, "strokes");
+  Lines lines{counted(static_cast<long long>(strokes.size()), "stroke")};
+  for (const Json& stroke : strokes) {
+    const std::string unit = text_of(stroke, "unit");
+    std::string line = (text_of(stroke, "name").empty() ? "(no name)" : text_of(stroke, "name")) +
+                       ": height " + length(stroke, "height");
+    if (stroke.contains("width")) line += ", width " + length(stroke, "width");
+    if (stroke.contains("length_on_garment"))
+      line += ", " + length(stroke, "length_on_garment") + " long on the garment";
+    else if (unit == "m")
+      line += ", " + length(stroke, "length") + " long";
+    line += ", drawn as " + text_of(stroke, "kind");
+    if (stroke.value("closed", false)) line += ", closed";
+    lines.push_back(line);
+  }
+  return lines;
+}
+
 void strokes(StrokesArguments a) {
   bool edits = !a.order.empty();
   for (const auto* list : {&a.remove, &a.move, &a.change, &a.rename}) edits = edits || !list->empty();
@@ -142,8 +161,6 @@ void strokes(StrokesArguments a) {
   }
   print_report(report, a, {strokes_lines(report), {a.out}});
 }
-
-}  // namespace
 
 void add_strokes(CLI::App& app) {
   auto a = std::make_shared<StrokesArguments>();
@@ -188,4 +205,7 @@ void add_strokes(CLI::App& app) {
   sub->callback([a] { strokes(*a); });
 }
 
+const Subcommand strokes_subcommand(60, add_strokes);
+
+}  // namespace
 }  // namespace furrow::cli

@@ -162,8 +162,6 @@ int serve(const StudioArguments&) {
 }
 #endif
 
-}  // namespace
-
 void add_studio(CLI::App& app, int& exit_code) {
   auto a = std::make_shared<StudioArguments>();
   CLI::App* sub = app.add_subcommand("studio",
@@ -193,4 +191,7 @@ void add_studio(CLI::App& app, int& exit_code) {
   sub->callback([a, &exit_code] { exit_code = serve(*a); });
 }
 
+const Subcommand studio_subcommand(200, add_studio);
+
+}  // namespace
 }  // namespace furrow::cli

@@ -17,6 +17,19 @@ struct SubdivideArguments : CommonArguments {
   const CLI::App* typed = nullptr;
 };
 
+Lines subdivide_lines(const Json& report) {
+  Lines lines{"refined to " + std::to_string(count_of(report, "vertices")) + " vertices, " +
+              std::to_string(count_of(report, "faces")) + " faces"};
+  if (report.contains("inserted"))
+    lines.push_back(std::to_string(count_of(report, "inserted")) +
+                    " vertices inserted along the strokes; smallest angle " +
+                    number(value_of(report, "min_angle_deg")) + " degrees");
+  if (const std::size_t n = list_of(report, "line_edges_missing").size())
+    lines.push_back("look at: " + counted(static_cast<long long>(n), "edge") +
+                    " of the lines could not be made");
+  return lines;
+}
+
 void subdivide(SubdivideArguments& a) {
   SubdivideJob& job = a.job;
   std::size_t ways = 0;
@@ -42,8 +55,6 @@ void subdivide(SubdivideArguments& a) {
                     : std::vector<std::string>{"furrow", "wrinkle", a.out, "LINES", "-o", "wrinkled.ply"}});
 }
 
-}  // namespace
-
 void add_subdivide(CLI::App& app) {
   auto a = std::make_shared<SubdivideArguments>();
   CLI::App* sub =
@@ -59,4 +70,7 @@ void add_subdivide(CLI::App& app) {
   sub->callback([a] { subdivide(*a); });
 }
 
+const Subcommand subdivide_subcommand(30, add_subdivide);
+
+}  // namespace
 }  // namespace furrow::cli

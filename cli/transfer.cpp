@@ -17,6 +17,16 @@ struct TransferArguments : CommonArguments {
   TransferJob job;
 };
 
+Lines transfer_lines(const Json& report) {
+  Lines lines{std::to_string(count_of(report, "vertices")) + " vertices moved to the wrinkled shape, " +
+              std::to_string(count_of(report, "unchanged")) + " of them unchanged"};
+  if (const long long n = count_of(report, "interpolated"))
+    lines.push_back(std::to_string(n) + " of them by the nearest place, at most " +
+                    length(report, "max_distance") + " away");
+  add_crossings(lines, report);
+  return lines;
+}
+
 void transfer(TransferArguments& a) {
   a.job.original = std::filesystem::path(a.original);
   a.job.wrinkled = std::filesystem::path(a.wrinkled);
@@ -34,8 +44,6 @@ void transfer(TransferArguments& a) {
   json["written"] = a.out;
   print_report(json, a, {transfer_lines(json), {a.out}});
 }
-
-}  // namespace
 
 void add_transfer(CLI::App& app) {
   auto a = std::make_shared<TransferArguments>();
@@ -55,4 +63,7 @@ void add_transfer(CLI::App& app) {
   sub->callback([a] { transfer(*a); });
 }
 
+const Subcommand transfer_subcommand(160, add_transfer);
+
+}  // namespace
 }  // namespace furrow::cli

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/chain/wrinkle.h"
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
@@ -160,6 +161,36 @@ void write_preview(const WrinkleReport& report, const WrinkleArguments& a) {
   save_camera(options, a.camera);
 }
 
+Lines wrinkle_lines(const Json& report) {
+  const Json& drawn = list_of(report, "lines");
+  Lines lines{counted(static_cast<long long>(drawn.size()), "line") + " drawn, " +
+              std::to_string(count_of(report, "inserted")) + " vertices inserted; smallest angle " +
+              number(value_of(report, "min_angle_deg")) + " degrees"};
+  const std::size_t most = 4;
+  for (std::size_t i = 0; i < std::min(most, drawn.size()); ++i) {
+    const Json& line = drawn[i];
+    const std::string asked = name_of_line(line) + ": asked " + length(line, "height");
+    lines.push_back(line.contains("crest_height") ? asked + ", " + length(line, "crest_height") +
+                                                        " at the crest, " + length(line, "width") + " wide"
+                                                  : asked + ", drawn " + length(line, "drawn_height") +
+                                                        ", smoothed to " + length(line, "smoothed_height"));
+  }
+  if (drawn.size() > most)
+    lines.push_back("and " + counted(static_cast<long long>(drawn.size() - most), "more line"));
+  if (const std::size_t n = list_of(report, "line_edges_missing").size())
+    lines.push_back("look at: " + counted(static_cast<long long>(n), "edge") +
+                    " of the lines could not be made");
+  if (const Json& kept = table_of(report, "kept"); !kept.empty())
+    lines.push_back(balance_of(kept, "kept: ", "the drawn shape"));
+  add_crossings(lines, report);
+  if (const Json& rest = table_of(report, "at_rest"); !rest.empty()) {
+    lines.push_back("then " + text_of(rest, "outcome") + " (" + number(value_of(rest, "seconds")) +
+                    " s); angle defect " + number(value_of(rest, "angle_defect")) + " rad/m^2");
+    add_heights(lines, rest);
+  }
+  return lines;
+}
+
 int wrinkle(const WrinkleArguments& a) {
   check_call(a);
   if (a.job.settle) catch_interrupts();
@@ -185,8 +216,6 @@ int wrinkle(const WrinkleArguments& a) {
   if (report.budget_spent) report_spent_budget(a.job.budget, {a.out});
   return exit_code_of(interrupted(), report.failures.empty() && !report.budget_spent);
 }
-
-}  // namespace
 
 void add_wrinkle(CLI::App& app, int& exit_code) {
   auto a = std::make_shared<WrinkleArguments>();
@@ -226,4 +255,7 @@ void add_wrinkle(CLI::App& app, int& exit_code) {
   });
 }
 
+const Subcommand wrinkle_subcommand(50, add_wrinkle);
+
+}  // namespace
 }  // namespace furrow::cli

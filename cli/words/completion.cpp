@@ -43,8 +43,6 @@ void print_page(const CLI::App& app, const ManArguments& a) {
   throw UsageError("there is no subcommand '" + a.command + "'; furrow --help lists them");
 }
 
-}  // namespace
-
 void add_completion(CLI::App& app) {
   auto shell = std::make_shared<std::string>();
   CLI::App* sub =
@@ -61,6 +59,8 @@ void add_completion(CLI::App& app) {
   });
 }
 
+const Subcommand completion_subcommand(900, add_completion);
+
 void add_man(CLI::App& app) {
   auto a = std::make_shared<ManArguments>();
   CLI::App* sub = app.add_subcommand("man",
@@ -72,4 +72,7 @@ void add_man(CLI::App& app) {
   sub->callback([a, &app] { print_page(app, *a); });
 }
 
+const Subcommand man_subcommand(910, add_man);
+
+}  // namespace
 }  // namespace furrow::cli
