@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/mesh/bake.h"
 
-#include <memory>
-
 #include "cli/card_options.h"
 #include "cli/common.h"
 #include "cli/subcommands.h"
@@ -55,23 +53,19 @@ int bake(BakeArguments& a) {
   return report.cancelled ? exit_interrupted : exit_ok;
 }
 
-void add_bake(CLI::App& app, int& exit_code) {
-  auto a = std::make_shared<BakeArguments>();
-  CLI::App* sub = app.add_subcommand(
-      "bake",
-      "Bake a wrinkled mesh into textures of the mesh it was made of\n\n"
-      "Writes PREFIX_normal.png, PREFIX_displacement.png (16 bits, tangent space) and PREFIX_maps.json.\n\n"
-      "  furrow bake shirt.obj worn.ply -o shirt --texels 2048");
-  sub->add_option("low", a->low, "mesh that the maps are for; its texture charts must not overlap")
-      ->required();
-  sub->add_option("high", a->high, "wrinkled mesh with the same charts, in the same pose")->required();
-  add_card(*sub, card(a->job));
-  sub->get_option("--output")->required();
-  add_common_options(*sub, *a);
-  sub->callback([a, &exit_code] { exit_code = bake(*a); });
+void add_bake(CLI::App& sub, BakeArguments& a) {
+  sub.add_option("low", a.low, "mesh that the maps are for; its texture charts must not overlap")->required();
+  sub.add_option("high", a.high, "wrinkled mesh with the same charts, in the same pose")->required();
+  add_card(sub, card(a.job));
+  sub.get_option("--output")->required();
 }
 
-const Subcommand bake_subcommand(170, add_bake);
+const Subcommand bake_subcommand(
+    170, "bake",
+    "Bake a wrinkled mesh into textures of the mesh it was made of\n\n"
+    "Writes PREFIX_normal.png, PREFIX_displacement.png (16 bits, tangent space) and PREFIX_maps.json.\n\n"
+    "  furrow bake shirt.obj worn.ply -o shirt --texels 2048",
+    add_bake, bake);
 
 }  // namespace
 }  // namespace furrow::cli

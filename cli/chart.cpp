@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <iostream>
-#include <memory>
 
 #include "cli/card_options.h"
 #include "cli/common.h"
@@ -75,24 +74,21 @@ int chart(const ChartArguments& a) {
   return code;
 }
 
-void add_chart(CLI::App& app, int& exit_code) {
-  auto a = std::make_shared<ChartArguments>();
-  CLI::App* sub = app.add_subcommand(
-      "chart",
-      "Draw speed against accuracy of integrators and steps on a scene, and name the cheapest within a "
-      "tolerance\n\n"
-      "  furrow chart scenes/shirt.toml\n"
-      "  furrow chart scenes/shirt.toml --accuracy 0.5% --budget 120 -o chart.svg\n"
-      "  furrow chart scenes/skirt.toml --set simulation.seconds=1 --json");
-  sub->add_option("scene", a->in, "scene to judge (.toml), or a garment")->required();
-  add_card(*sub, card(a->job));
-  sub->add_option("--set", a->sets, "any setting of the scene, as key=value; may be given again")
+void add_chart(CLI::App& sub, ChartArguments& a) {
+  sub.add_option("scene", a.in, "scene to judge (.toml), or a garment")->required();
+  add_card(sub, card(a.job));
+  sub.add_option("--set", a.sets, "any setting of the scene, as key=value; may be given again")
       ->allow_extra_args(false);
-  add_common_options(*sub, *a);
-  sub->callback([a, &exit_code] { exit_code = chart(*a); });
 }
 
-const Subcommand chart_subcommand(100, add_chart);
+const Subcommand chart_subcommand(
+    100, "chart",
+    "Draw speed against accuracy of integrators and steps on a scene, and name the cheapest within a "
+    "tolerance\n\n"
+    "  furrow chart scenes/shirt.toml\n"
+    "  furrow chart scenes/shirt.toml --accuracy 0.5% --budget 120 -o chart.svg\n"
+    "  furrow chart scenes/skirt.toml --set simulation.seconds=1 --json",
+    add_chart, chart);
 
 }  // namespace
 }  // namespace furrow::cli

@@ -2,7 +2,6 @@
 #include "jobs/mesh/doctor.h"
 
 #include <algorithm>
-#include <memory>
 
 #include "cli/camera_options.h"
 #include "cli/card_options.h"
@@ -69,7 +68,7 @@ Lines doctor_lines(const Json& report) {
   const Json &found = list_of(report, "found"), &left = repaired ? list_of(report, "left") : found;
   Lines lines;
   if (repaired && !found.empty())
-    lines.push_back("looked through: " + counted((long long)(found.size()), "fault") + " before, " +
+    lines.push_back("looked through: " + counted(found.size(), "fault") + " before, " +
                     std::to_string(left.size()) + " left");
   for (const Json& sentence : left)
     if (sentence.is_string())
@@ -104,23 +103,20 @@ int doctor(DoctorArguments& a) {
   return exit_code_of(false, report.well());
 }
 
-void add_doctor(CLI::App& app, int& exit_code) {
-  auto a = std::make_shared<DoctorArguments>();
-  CLI::App* sub =
-      app.add_subcommand("doctor",
-                         "Say what is wrong with a mesh, where, and what mends it; --repair does\n\n"
-                         "  furrow doctor shirt.obj --body body.obj --picture where.png\n"
-                         "  furrow doctor shirt.obj --repair -o mended.obj\n\n"
-                         "The exit code is 4 where something is wrong, or is left after --repair.");
-  sub->add_option("mesh", a->mesh, "garment to examine; with --as-body a body")->required();
-  add_card(*sub, card(a->job));
-  sub->add_option("--picture", a->picture, "PNG to write: a red ball where something is wrong");
-  add_camera_options(*sub, a->camera);
-  add_common_options(*sub, *a);
-  sub->callback([a, &exit_code] { exit_code = doctor(*a); });
+void add_doctor(CLI::App& sub, DoctorArguments& a) {
+  sub.add_option("mesh", a.mesh, "garment to examine; with --as-body a body")->required();
+  add_card(sub, card(a.job));
+  sub.add_option("--picture", a.picture, "PNG to write: a red ball where something is wrong");
+  add_camera_options(sub, a.camera);
 }
 
-const Subcommand doctor_subcommand(20, add_doctor);
+const Subcommand doctor_subcommand(
+    20, "doctor",
+    "Say what is wrong with a mesh, where, and what mends it; --repair does\n\n"
+    "  furrow doctor shirt.obj --body body.obj --picture where.png\n"
+    "  furrow doctor shirt.obj --repair -o mended.obj\n\n"
+    "The exit code is 4 where something is wrong, or is left after --repair.",
+    add_doctor, doctor);
 
 }  // namespace
 }  // namespace furrow::cli

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/rest/drape.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
-#include <cstdio>
 #include <iostream>
-#include <memory>
 
 #include "cli/camera_options.h"
 #include "cli/card_options.h"
@@ -166,20 +166,13 @@ void add_starts(Lines& lines, const Json& report) {
                      std::to_string(count_of(starts, "chosen")) + " taken";
   for (const Json& s : list_of(starts, "spread")) {
     const std::string name = text_of(s, "name");
-    const bool ease = name.rfind("ease_", 0) == 0;
-    char part[96];
-    if (ease)
-      std::snprintf(part, sizeof part, "; %s %+.1f +- %.2f cm", name.c_str() + 5, 100 * value_of(s, "mean"),
-                    100 * value_of(s, "deviation"));
+    const double mean = value_of(s, "mean"), deviation = value_of(s, "deviation");
+    if (name.starts_with("ease_"))
+      text += fmt::format("; {} {:+.1f} +- {:.2f} cm", name.substr(5), 100 * mean, 100 * deviation);
     else if (name == "hem_height")
-      std::snprintf(part, sizeof part, "; hem at %.1f +- %.2f cm", 100 * value_of(s, "mean"),
-                    100 * value_of(s, "deviation"));
+      text += fmt::format("; hem at {:.1f} +- {:.2f} cm", 100 * mean, 100 * deviation);
     else if (name == "energy")
-      std::snprintf(part, sizeof part, "; energy %.4g +- %.2g J", value_of(s, "mean"),
-                    value_of(s, "deviation"));
-    else
-      continue;
-    text += part;
+      text += fmt::format("; energy {:.4g} +- {:.2g} J", mean, deviation);
   }
   lines.push_back(text);
 }
@@ -192,13 +185,12 @@ void add_placed(Lines& lines, const Json& placed) {
     const double most = std::fmax(value_of(turned, left), value_of(turned, right));
     return std::to_string(std::lround(std::isfinite(most) ? most : 0)) + " degrees";
   };
-  char scale[32];
-  std::snprintf(scale, sizeof scale, "%.3g", value_of(placed, "height_scale"));
-  lines.push_back("brought from " + text_of(placed, "made_for") + ": height x " + scale +
-                  ", arms turned by " + degrees("left_arm", "right_arm") + ", legs by " +
-                  degrees("left_leg", "right_leg") + "; moved by " + length(placed, "mean_move") +
-                  ", at most " + length(placed, "farthest_move") + "; " +
-                  per_cent(value_of(placed, "inside_share")) + " of it began inside the body");
+  lines.push_back("brought from " + text_of(placed, "made_for") + ": height x " +
+                  number(value_of(placed, "height_scale")) + ", arms turned by " +
+                  degrees("left_arm", "right_arm") + ", legs by " + degrees("left_leg", "right_leg") +
+                  "; moved by " + length(placed, "mean_move") + ", at most " +
+                  length(placed, "farthest_move") + "; " + per_cent(value_of(placed, "inside_share")) +
+                  " of it began inside the body");
 }
 
 /// Of one garment on a body.
@@ -301,44 +293,43 @@ int drape(const DrapeArguments& a) {
   return code == exit_ok && interrupted() ? exit_interrupted : code;
 }
 
-void add_drape(CLI::App& app, int& exit_code) {
-  auto a = std::make_shared<DrapeArguments>();
-  a->camera.size = "900,1100";
-  CLI::App* sub = app.add_subcommand(
-      "drape",
-      "Put a finished garment on a body, or hang it from its pins: how it comes to rest, and how it fits\n\n"
-      "  furrow drape shirt.obj --body body.obj -o worn.ply --picture fit.png\n"
-      "  furrow drape skirt.obj --body body.obj --fabric silk --band top=0.95 -o worn.ply\n"
-      "  furrow drape leggings.obj skirt.obj --body body.obj -o worn.ply\n"
-      "  furrow drape shirt.obj --body body.obj --fabrics cotton,silk,denim --picture fabrics.png\n"
-      "  furrow drape shirt.obj --made-for anna.obj --body berta.obj -o worn.ply\n"
-      "  furrow drape curtain.obj --pin-loop top -o hangs.ply");
-  sub->add_option("garment", a->garments,
-                  "garment to read, where it lies on the body or about it, or a scene: a .toml file; several "
-                  "are worn over each other, the first one innermost, and none passes through another")
-      ->required();
-  add_card(*sub, card(a->job));
-  begin_group(*sub, group::picture);
-  sub->add_option("--picture", a->picture, "PNG to write: the garment on the body, coloured, with a legend");
-  begin_group(*sub, group::picture, Audience::few);
-  sub->add_option("--colour", a->colour, "of the picture: strain (default) or distance")
-      ->check(CLI::IsMember({"strain", "distance"}));
-  sub->add_flag("--no-legend", a->no_legend, "leave the bar of colours and the words out of the picture");
-  a->flags.add_to(*sub, io::used_by::drape);
-  add_camera_options(*sub, a->camera);
-  add_common_options(*sub, *a);
-  sub->callback([a, sub, &exit_code] {
-    for (const char* option : {"--view", "--camera", "--eye", "--target"})
-      a->view_chosen = a->view_chosen || sub->count(option) > 0;
-    a->in = a->garments.front();
-    a->out = a->job.output.string();
-    a->animation = a->job.settings.animation.string();
-    a->auto_subdivide = sub->count("--subdivide") && !a->job.subdivide;
-    exit_code = drape(*a);
-  });
+int run_drape(DrapeArguments& a) {
+  for (const char* option : {"--view", "--camera", "--eye", "--target"})
+    a.view_chosen = a.view_chosen || a.typed->count(option) > 0;
+  a.in = a.garments.front();
+  a.out = a.job.output.string();
+  a.animation = a.job.settings.animation.string();
+  a.auto_subdivide = a.typed->count("--subdivide") && !a.job.subdivide;
+  return drape(a);
 }
 
-const Subcommand drape_subcommand(130, add_drape);
+void add_drape(CLI::App& sub, DrapeArguments& a) {
+  a.camera.size = "900,1100";
+  sub.add_option("garment", a.garments,
+                 "garment to read, where it lies on the body or about it, or a scene: a .toml file; several "
+                 "are worn over each other, the first one innermost, and none passes through another")
+      ->required();
+  add_card(sub, card(a.job));
+  begin_group(sub, group::picture);
+  sub.add_option("--picture", a.picture, "PNG to write: the garment on the body, coloured, with a legend");
+  begin_group(sub, group::picture, Audience::few);
+  sub.add_option("--colour", a.colour, "of the picture: strain (default) or distance")
+      ->check(CLI::IsMember({"strain", "distance"}));
+  sub.add_flag("--no-legend", a.no_legend, "leave the bar of colours and the words out of the picture");
+  a.flags.add_to(sub, io::used_by::drape);
+  add_camera_options(sub, a.camera);
+}
+
+const Subcommand drape_subcommand(
+    130, "drape",
+    "Put a finished garment on a body, or hang it from its pins: how it comes to rest, and how it fits\n\n"
+    "  furrow drape shirt.obj --body body.obj -o worn.ply --picture fit.png\n"
+    "  furrow drape skirt.obj --body body.obj --fabric silk --band top=0.95 -o worn.ply\n"
+    "  furrow drape leggings.obj skirt.obj --body body.obj -o worn.ply\n"
+    "  furrow drape shirt.obj --body body.obj --fabrics cotton,silk,denim --picture fabrics.png\n"
+    "  furrow drape shirt.obj --made-for anna.obj --body berta.obj -o worn.ply\n"
+    "  furrow drape curtain.obj --pin-loop top -o hangs.ply",
+    add_drape, run_drape);
 
 }  // namespace
 }  // namespace furrow::cli

@@ -2,7 +2,6 @@
 #include "jobs/mesh/info.h"
 
 #include <algorithm>
-#include <memory>
 
 #include "cli/common.h"
 #include "cli/subcommands.h"
@@ -114,17 +113,13 @@ void info(const InfoArguments& a) {
                             : std::vector<std::string>{"furrow", "info", a.mesh, "--unit", "UNIT"}});
 }
 
-void add_info(CLI::App& app) {
-  auto a = std::make_shared<InfoArguments>();
-  CLI::App* sub = app.add_subcommand("info", "Say what a mesh is: counts, topology, lengths, areas, faults");
-  sub->add_option("mesh", a->mesh,
-                  "mesh to read: " + io::mesh_formats(true) + "; - is OBJ from standard input")
+void add_info(CLI::App& sub, InfoArguments& a) {
+  sub.add_option("mesh", a.mesh, "mesh to read: " + io::mesh_formats(true) + "; - is OBJ from standard input")
       ->required();
-  add_common_options(*sub, *a);
-  sub->callback([a] { info(*a); });
 }
 
-const Subcommand info_subcommand(10, add_info);
+const Subcommand info_subcommand(10, "info", "Say what a mesh is: counts, topology, lengths, areas, faults",
+                                 add_info, info);
 
 }  // namespace
 }  // namespace furrow::cli

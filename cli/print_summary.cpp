@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/print_summary.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "geometry/mesh/measures.h"
 #include "io/base/shell_word.h"
 
 namespace furrow::cli {
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
+std::string number(double value) { return fmt::format("{:.3g}", value); }
 
 double value_of(const Json& report, const char* key) {
   const auto at = report.find(key);
@@ -61,10 +58,6 @@ std::string balance_of(const Json& rest, const std::string& good, const std::str
   return good + shape + " is at rest, and stable";
 }
 
-std::string counted(long long n, const std::string& what) {
-  return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
-}
-
 void add_crossings(Lines& lines, const Json& report) {
   const Json& crossings = table_of(report, "crossings");
   const long long pairs = count_of(crossings, "pairs");
@@ -87,9 +80,7 @@ std::string ease_text(const Json& fit) {
   for (const Json& e : list_of(fit, "ease")) {
     const double ease = value_of(e, "ease");
     if (!std::isfinite(ease)) continue;
-    char part[64];
-    std::snprintf(part, sizeof part, " %+.1f cm", 100 * ease);
-    text += (text.empty() ? "" : ", ") + text_of(e, "section") + part;
+    text += (text.empty() ? "" : ", ") + text_of(e, "section") + fmt::format(" {:+.1f} cm", 100 * ease);
   }
   return text;
 }

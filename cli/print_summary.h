@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <concepts>
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <string>
@@ -32,7 +33,10 @@ std::string number(double value);             ///< of three digits
 std::string length_or_unknown(double value);  ///< [m], as people write it
 std::string length(const Json& report, const char* key);
 std::string per_cent(double share);  ///< what is below a thousandth of a per cent is none
-std::string counted(long long n, const std::string& what);  ///< "1 face", "3 faces"
+/// "1 face", "3 faces".
+std::string counted(std::integral auto n, const std::string& what) {
+  return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+}
 std::string name_of_line(const Json& line);
 
 /// Whether a rest state holds still: its second derivatives tell nothing where forces do not balance.

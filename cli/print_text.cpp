@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/print_text.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cstdio>
 #include <vector>
 
 #include "io/base/field_words.h"
@@ -16,9 +17,7 @@ std::string plain_text_of(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_null()) return "-";
   if (!value.is_number_float()) return value.dump(-1, ' ', false, Json::error_handler_t::replace);
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value.get<double>());
-  return text;
+  return fmt::format("{:.6g}", value.get<double>());
 }
 
 /// Objects of plain values, two or more keys each.

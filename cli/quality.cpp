@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <memory>
 
 #include "cli/camera_options.h"
 #include "cli/card_options.h"
@@ -99,28 +98,24 @@ int quality(QualityArguments& a) {
   return exit_code_of(false, !a.check || report.met());
 }
 
-void add_quality(CLI::App& app, int& exit_code) {
-  auto a = std::make_shared<QualityArguments>();
-  CLI::App* sub = app.add_subcommand(
-      "quality",
-      "Measure how well a cloth is folded: ripples, zigzag, knobs, thin faces, hems\n\n"
-      "  furrow quality wrinkled.ply\n"
-      "  furrow quality wrinkled.obj --base skirt.obj --strokes lines.json --picture knobs.png\n"
-      "  furrow quality worn.ply --check\n\n"
-      "Each measure stands beside its target. The exit code is 0, with --check 4 where one is missed.");
-  sub->add_option("mesh", a->mesh, "mesh to measure, with folds or without")->required();
-  add_card(*sub, card(a->job));
-  sub->add_option(
-      "--picture", a->picture,
-      "PNG to write: angle defects as colours, red domes and blue saddles, full at 400 rad/m^2; a "
-      "magenta ball at the worst places beyond that");
-  sub->add_flag("--check", a->check, "exit with 4 where a target is missed");
-  add_camera_options(*sub, a->camera);
-  add_common_options(*sub, *a);
-  sub->callback([a, &exit_code] { exit_code = quality(*a); });
+void add_quality(CLI::App& sub, QualityArguments& a) {
+  sub.add_option("mesh", a.mesh, "mesh to measure, with folds or without")->required();
+  add_card(sub, card(a.job));
+  sub.add_option("--picture", a.picture,
+                 "PNG to write: angle defects as colours, red domes and blue saddles, full at 400 rad/m^2; a "
+                 "magenta ball at the worst places beyond that");
+  sub.add_flag("--check", a.check, "exit with 4 where a target is missed");
+  add_camera_options(sub, a.camera);
 }
 
-const Subcommand quality_subcommand(70, add_quality);
+const Subcommand quality_subcommand(
+    70, "quality",
+    "Measure how well a cloth is folded: ripples, zigzag, knobs, thin faces, hems\n\n"
+    "  furrow quality wrinkled.ply\n"
+    "  furrow quality wrinkled.obj --base skirt.obj --strokes lines.json --picture knobs.png\n"
+    "  furrow quality worn.ply --check\n\n"
+    "Each measure stands beside its target. The exit code is 0, with --check 4 where one is missed.",
+    add_quality, quality);
 
 }  // namespace
 }  // namespace furrow::cli

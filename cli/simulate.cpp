@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
-#include <memory>
 
 #include "cli/card_options.h"
 #include "cli/common.h"
@@ -21,7 +20,6 @@ namespace {
 struct SimulateArguments : CommonArguments {
   std::string in;
   SimulateJob job;
-  const CLI::App* typed = nullptr;
   SceneFlags flags;
 };
 
@@ -149,27 +147,23 @@ int simulate(const SimulateArguments& a) {
   return exit_code_of(report.run.outcome == physics::Outcome::stopped_by_observer, !report.fails());
 }
 
-void add_simulate(CLI::App& app, int& exit_code) {
-  auto a = std::make_shared<SimulateArguments>();
-  CLI::App* sub =
-      app.add_subcommand("simulate",
-                         "Let a garment hang, fall and rest on a body\n\n"
-                         "  furrow simulate sheet.ply --pin-box -0.5,0,-1,-0.5,1,1 -o hung.ply\n"
-                         "  furrow simulate wrinkled.ply --body body.obj -o worn.ply\n"
-                         "  furrow simulate scenes/skirt.toml --set material.bending=1\n"
-                         "  furrow simulate wrinkled.ply --body body.obj --stop-at 1 --save-state at1.ply\n"
-                         "  furrow simulate --state at1.ply -o worn.ply");
-  sub->add_option(
-      "garment", a->in,
+void add_simulate(CLI::App& sub, SimulateArguments& a) {
+  sub.add_option(
+      "garment", a.in,
       "garment to read (PLY of furrow wrinkle brings rest lengths and masses), or a scene: a .toml file");
-  add_card(*sub, card(a->job));
-  a->flags.add_to(*sub, io::used_by::simulate);
-  a->typed = sub;
-  add_common_options(*sub, *a);
-  sub->callback([a, &exit_code] { exit_code = simulate(*a); });
+  add_card(sub, card(a.job));
+  a.flags.add_to(sub, io::used_by::simulate);
 }
 
-const Subcommand simulate_subcommand(80, add_simulate);
+const Subcommand simulate_subcommand(
+    80, "simulate",
+    "Let a garment hang, fall and rest on a body\n\n"
+    "  furrow simulate sheet.ply --pin-box -0.5,0,-1,-0.5,1,1 -o hung.ply\n"
+    "  furrow simulate wrinkled.ply --body body.obj -o worn.ply\n"
+    "  furrow simulate scenes/skirt.toml --set material.bending=1\n"
+    "  furrow simulate wrinkled.ply --body body.obj --stop-at 1 --save-state at1.ply\n"
+    "  furrow simulate --state at1.ply -o worn.ply",
+    add_simulate, simulate);
 
 }  // namespace
 }  // namespace furrow::cli
