@@ -206,8 +206,6 @@ int batch(const BatchArguments& a, const CLI::App& app) {
   return gather_batch(plan, a);
 }
 
-}  // namespace
-
 void add_batch(CLI::App& app, int& exit_code) {
   auto a = std::make_shared<BatchArguments>();
   CLI::App* sub = app.add_subcommand("batch",
@@ -243,4 +241,7 @@ void add_batch(CLI::App& app, int& exit_code) {
   sub->callback([a, &app, &exit_code] { exit_code = batch(*a, app); });
 }
 
+const Subcommand batch_subcommand(190, add_batch);
+
+}  // namespace
 }  // namespace furrow::cli

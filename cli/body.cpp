@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <iostream>
-#include <memory>
 
 #include "cli/card_options.h"
 #include "cli/common.h"
@@ -60,20 +59,18 @@ int body(BodyArguments& a) {
   return exit_not_converged;
 }
 
-}  // namespace
-
-void add_body(CLI::App& app, int& exit_code) {
-  auto a = std::make_shared<BodyArguments>();
-  CLI::App* sub =
-      app.add_subcommand("body",
-                         "Give a body a person's measurements, or tell those that it has\n\n"
-                         "  furrow body --height 1.68 --chest 0.92 --waist 0.74 --hip 0.98 -o anna.obj\n"
-                         "  furrow body scan.obj --waist 0.80 -o wider.obj\n"
-                         "  furrow body scan.obj");
-  sub->add_option("body", a->in, "standing body to read (default: our mannequin)");
-  add_card(*sub, card(a->job));
-  add_common_options(*sub, *a);
-  sub->callback([a, &exit_code] { exit_code = body(*a); });
+void add_body(CLI::App& sub, BodyArguments& a) {
+  sub.add_option("body", a.in, "standing body to read (default: our mannequin)");
+  add_card(sub, card(a.job));
 }
 
+const Subcommand body_subcommand(
+    180, "body",
+    "Give a body a person's measurements, or tell those that it has\n\n"
+    "  furrow body --height 1.68 --chest 0.92 --waist 0.74 --hip 0.98 -o anna.obj\n"
+    "  furrow body scan.obj --waist 0.80 -o wider.obj\n"
+    "  furrow body scan.obj",
+    add_body, body);
+
+}  // namespace
 }  // namespace furrow::cli

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/move/chart.h"
 
+#include <algorithm>
 #include <iostream>
-#include <memory>
 
 #include "cli/card_options.h"
 #include "cli/common.h"
@@ -41,6 +41,25 @@ ChartJob job_of(const ChartArguments& a) {
   return job;
 }
 
+Lines chart_lines(const Json& report) {
+  Lines lines{text_of(report, "says")};
+  std::vector<const Json*> good;
+  for (const Json& c : list_of(report, "candidates"))
+    if (text_of(c, "verdict") == "meets") good.push_back(&c);
+  std::stable_sort(good.begin(), good.end(),
+                   [](const Json* a, const Json* b) { return value_of(*a, "cost") < value_of(*b, "cost"); });
+  const std::size_t most = 4;
+  for (std::size_t i = 0; i < std::min(most, good.size()); ++i)
+    lines.push_back(text_of(*good[i], "name") + ": error " + per_cent(value_of(*good[i], "error")) + ", " +
+                    number(value_of(*good[i], "cost")) + " s a simulated second");
+  const std::size_t missed = list_of(report, "candidates").size() - good.size();
+  std::string rest =
+      good.size() > most ? std::to_string(good.size() - most) + " more are accurate enough" : "";
+  if (missed) rest += (rest.empty() ? "" : ", ") + std::to_string(missed) + " are not, or were not run";
+  if (!rest.empty()) lines.push_back(rest);
+  return lines;
+}
+
 int chart(const ChartArguments& a) {
   const ChartJob job = job_of(a);
   catch_interrupts();
@@ -55,23 +74,21 @@ int chart(const ChartArguments& a) {
   return code;
 }
 
-}  // namespace
-
-void add_chart(CLI::App& app, int& exit_code) {
-  auto a = std::make_shared<ChartArguments>();
-  CLI::App* sub = app.add_subcommand(
-      "chart",
-      "Draw speed against accuracy of integrators and steps on a scene, and name the cheapest within a "
-      "tolerance\n\n"
-      "  furrow chart scenes/shirt.toml\n"
-      "  furrow chart scenes/shirt.toml --accuracy 0.5% --budget 120 -o chart.svg\n"
-      "  furrow chart scenes/skirt.toml --set simulation.seconds=1 --json");
-  sub->add_option("scene", a->in, "scene to judge (.toml), or a garment")->required();
-  add_card(*sub, card(a->job));
-  sub->add_option("--set", a->sets, "any setting of the scene, as key=value; may be given again")
+void add_chart(CLI::App& sub, ChartArguments& a) {
+  sub.add_option("scene", a.in, "scene to judge (.toml), or a garment")->required();
+  add_card(sub, card(a.job));
+  sub.add_option("--set", a.sets, "any setting of the scene, as key=value; may be given again")
       ->allow_extra_args(false);
-  add_common_options(*sub, *a);
-  sub->callback([a, &exit_code] { exit_code = chart(*a); });
 }
 
+const Subcommand chart_subcommand(
+    100, "chart",
+    "Draw speed against accuracy of integrators and steps on a scene, and name the cheapest within a "
+    "tolerance\n\n"
+    "  furrow chart scenes/shirt.toml\n"
+    "  furrow chart scenes/shirt.toml --accuracy 0.5% --budget 120 -o chart.svg\n"
+    "  furrow chart scenes/skirt.toml --set simulation.seconds=1 --json",
+    add_chart, chart);
+
+}  // namespace
 }  // namespace furrow::cli

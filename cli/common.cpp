@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/common.h"
 
+#include <fmt/format.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -16,7 +17,6 @@
 #include "cli/help.h"
 #include "cli/print_text.h"
 #include "jobs/base/finite_report.h"
-#include "jobs/base/read_inputs.h"
 
 namespace furrow::cli {
 namespace {
@@ -177,9 +177,7 @@ Progress::Progress(std::string what, const CommonArguments& common, double budge
       start_(now()),
       told_(start_),
       between_lines_(seconds_between_lines(common.progress)) {
-  char text[64];
-  std::snprintf(text, sizeof text, " (at most %.4g s of processor time)", budget);
-  if (std::isfinite(budget)) limit_ = text;
+  if (std::isfinite(budget)) limit_ = fmt::format(" (at most {:.4g} s of processor time)", budget);
 }
 
 Progress::~Progress() {
@@ -192,9 +190,7 @@ std::string Progress::seconds_left(double time, int permille) {
   const double end = time + (time - start_) * (1000 - permille) / permille;
   const bool recedes = end - start_ > 1.2 * (end_ - start_);
   end_ = end;
-  char text[64];
-  std::snprintf(text, sizeof text, ", %.0f s left", end - time);
-  return recedes ? "" : text;
+  return recedes ? "" : fmt::format(", {:.0f} s left", end - time);
 }
 
 void Progress::draw_bar(int permille, double time) {
@@ -202,10 +198,8 @@ void Progress::draw_bar(int permille, double time) {
   shown_ = permille;
   std::string bar(30, ' ');
   std::fill_n(bar.begin(), 30 * permille / 1000, '=');
-  char text[64];
-  std::snprintf(text, sizeof text, "] %5.1f %%", permille / 10.0);
-  std::cerr << "\r\033[K" << what_ << " [" << bar << text << seconds_left(time, permille) << limit_
-            << std::flush;
+  std::cerr << "\r\033[K" << what_ << " [" << bar << fmt::format("] {:5.1f} %", permille / 10.0)
+            << seconds_left(time, permille) << limit_ << std::flush;
 }
 
 void Progress::show(double share) {
@@ -215,9 +209,8 @@ void Progress::show(double share) {
   if (form_ == Form::bar) return draw_bar(permille, time);
   if (time - told_ < between_lines_) return;
   told_ = time;
-  char text[64];
-  std::snprintf(text, sizeof text, ": %.1f %%", permille / 10.0);
-  std::cerr << what_ + text + seconds_left(time, permille) + limit_ + "\n" << std::flush;
+  std::cerr << fmt::format("{}: {:.1f} %{}{}\n", what_, permille / 10.0, seconds_left(time, permille), limit_)
+            << std::flush;
 }
 
 void Terminal::progress(const std::string& what, double share) {
@@ -237,11 +230,9 @@ bool Terminal::allows(const std::string& demand) {
 }
 
 void report_spent_budget(double seconds, const std::vector<std::string>& files) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.4g", seconds);
   std::string written;
   for (const std::string& file : names_of_files(files)) written += (written.empty() ? "" : ", ") + file;
-  std::cerr << "error: the budget of " << text << " s of processor time is spent; "
+  std::cerr << "error: the budget of " << fmt::format("{:.4g}", seconds) << " s of processor time is spent; "
             << (written.empty() ? "" : "the best state so far is in " + written + "; ")
             << "give it more with --budget, or refine it less\n";
 }

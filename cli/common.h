@@ -50,6 +50,7 @@ struct CommonArguments : Frame {
   bool quiet = false;    ///< no progress, no warnings, and no report but that of json
   /// bar, lines, none, or seconds between two lines; auto: a bar on a terminal, lines elsewhere.
   std::string progress = "auto";
+  const CLI::App* typed = nullptr;  ///< what was on the command line
 };
 void add_common_options(CLI::App& sub, CommonArguments& common);
 

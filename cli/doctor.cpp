@@ -2,12 +2,12 @@
 #include "jobs/mesh/doctor.h"
 
 #include <algorithm>
-#include <memory>
 
 #include "cli/camera_options.h"
 #include "cli/card_options.h"
 #include "cli/print_text.h"
 #include "cli/subcommands.h"
+#include "geometry/mesh/measures.h"
 #include "io/picture/png_file.h"
 #include "io/picture/render_scene.h"
 #include "jobs/base/read_inputs.h"
@@ -63,6 +63,28 @@ std::vector<std::string> next_of(const DoctorReport& report, const DoctorArgumen
   return {"furrow", "drape", mesh, "--body", name_of(*a.job.body, ""), "-o", "draped.ply"};
 }
 
+Lines doctor_lines(const Json& report) {
+  const bool repaired = report.contains("left");
+  const Json &found = list_of(report, "found"), &left = repaired ? list_of(report, "left") : found;
+  Lines lines;
+  if (repaired && !found.empty())
+    lines.push_back("looked through: " + counted(found.size(), "fault") + " before, " +
+                    std::to_string(left.size()) + " left");
+  for (const Json& sentence : left)
+    if (sentence.is_string())
+      lines.push_back((repaired ? "left: " : "found: ") + sentence.get<std::string>());
+  if (left.empty()) lines.push_back(repaired && !found.empty() ? "well now" : "well: no faults found");
+  std::string size;
+  for (const Json& edge : list_of(report, "size"))
+    size += (size.empty() ? "" : " x ") + geometry::length_text(edge.get<double>());
+  lines.push_back(counted(count_of(report, "faces"), "face") + ", " +
+                  counted(count_of(report, "components"), "part") + ", " +
+                  (report.value("closed", false) ? std::string("closed")
+                                                 : counted(count_of(report, "boundary_loops"), "border")) +
+                  "; " + size + " (width, height, depth)");
+  return lines;
+}
+
 int doctor(DoctorArguments& a) {
   check_picture(a.picture, "--picture");
   a.job.mesh = std::filesystem::path(a.mesh);
@@ -81,22 +103,20 @@ int doctor(DoctorArguments& a) {
   return exit_code_of(false, report.well());
 }
 
-}  // namespace
-
-void add_doctor(CLI::App& app, int& exit_code) {
-  auto a = std::make_shared<DoctorArguments>();
-  CLI::App* sub =
-      app.add_subcommand("doctor",
-                         "Say what is wrong with a mesh, where, and what mends it; --repair does\n\n"
-                         "  furrow doctor shirt.obj --body body.obj --picture where.png\n"
-                         "  furrow doctor shirt.obj --repair -o mended.obj\n\n"
-                         "The exit code is 4 where something is wrong, or is left after --repair.");
-  sub->add_option("mesh", a->mesh, "garment to examine; with --as-body a body")->required();
-  add_card(*sub, card(a->job));
-  sub->add_option("--picture", a->picture, "PNG to write: a red ball where something is wrong");
-  add_camera_options(*sub, a->camera);
-  add_common_options(*sub, *a);
-  sub->callback([a, &exit_code] { exit_code = doctor(*a); });
+void add_doctor(CLI::App& sub, DoctorArguments& a) {
+  sub.add_option("mesh", a.mesh, "garment to examine; with --as-body a body")->required();
+  add_card(sub, card(a.job));
+  sub.add_option("--picture", a.picture, "PNG to write: a red ball where something is wrong");
+  add_camera_options(sub, a.camera);
 }
 
+const Subcommand doctor_subcommand(
+    20, "doctor",
+    "Say what is wrong with a mesh, where, and what mends it; --repair does\n\n"
+    "  furrow doctor shirt.obj --body body.obj --picture where.png\n"
+    "  furrow doctor shirt.obj --repair -o mended.obj\n\n"
+    "The exit code is 4 where something is wrong, or is left after --repair.",
+    add_doctor, doctor);
+
+}  // namespace
 }  // namespace furrow::cli

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/rest/drape.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <iostream>
-#include <memory>
 
 #include "cli/camera_options.h"
 #include "cli/card_options.h"
@@ -148,6 +150,110 @@ int tell_remarks(const DrapeJobReport& report, const DrapeArguments& a, Terminal
   return exit_code_of(report.cancelled() && !report.budget_spent, !report.fails() && !report.budget_spent);
 }
 
+/// "not refined", "refined once", "refined 3 times".
+std::string refined(long long times) {
+  return times == 0   ? "not refined"
+         : times == 1 ? "refined once"
+                      : "refined " + std::to_string(times) + " times";
+}
+
+/// "waist +4.1 +- 0.2 cm", and so on, over all starts.
+void add_starts(Lines& lines, const Json& report) {
+  const Json& starts = table_of(report, "starts");
+  if (starts.empty()) return;
+  std::string text = std::to_string(count_of(starts, "resting")) + " of " +
+                     std::to_string(count_of(starts, "asked")) + " starts at rest, that of start " +
+                     std::to_string(count_of(starts, "chosen")) + " taken";
+  for (const Json& s : list_of(starts, "spread")) {
+    const std::string name = text_of(s, "name");
+    const double mean = value_of(s, "mean"), deviation = value_of(s, "deviation");
+    if (name.starts_with("ease_"))
+      text += fmt::format("; {} {:+.1f} +- {:.2f} cm", name.substr(5), 100 * mean, 100 * deviation);
+    else if (name == "hem_height")
+      text += fmt::format("; hem at {:.1f} +- {:.2f} cm", 100 * mean, 100 * deviation);
+    else if (name == "energy")
+      text += fmt::format("; energy {:.4g} +- {:.2g} J", mean, deviation);
+  }
+  lines.push_back(text);
+}
+
+/// "brought from anna.obj: height x 1.03, arms turned by 28 degrees, legs by 8; moved by 7 cm, …".
+void add_placed(Lines& lines, const Json& placed) {
+  if (placed.empty()) return;
+  const Json& turned = table_of(placed, "turned");
+  const auto degrees = [&](const char* left, const char* right) {
+    const double most = std::fmax(value_of(turned, left), value_of(turned, right));
+    return std::to_string(std::lround(std::isfinite(most) ? most : 0)) + " degrees";
+  };
+  lines.push_back("brought from " + text_of(placed, "made_for") + ": height x " +
+                  number(value_of(placed, "height_scale")) + ", arms turned by " +
+                  degrees("left_arm", "right_arm") + ", legs by " + degrees("left_leg", "right_leg") +
+                  "; moved by " + length(placed, "mean_move") + ", at most " +
+                  length(placed, "farthest_move") + "; " + per_cent(value_of(placed, "inside_share")) +
+                  " of it began inside the body");
+}
+
+/// Of one garment on a body.
+void add_draped(Lines& lines, const Json& report) {
+  const Json& levels = list_of(report, "levels");
+  const long long vertices = levels.empty() ? 0 : count_of(levels.back(), "vertices");
+  const Json& local = table_of(report, "local");
+  lines.push_back(text_of(report, "garment") + ": " + text_of(report, "outcome") + " (" +
+                  std::to_string(vertices) + " vertices, " +
+                  (local.empty() ? refined(count_of(report, "subdivide"))
+                                 : "refined where it folds; as fine everywhere, " +
+                                       std::to_string(count_of(local, "uniform_vertices"))) +
+                  ", " + number(value_of(report, "seconds")) + " s)");
+  if (!report.contains("fit")) return lines.push_back("not measured: `furrow fit` measures what was written");
+  const std::string asked = length(report, "gap_asked"), taken = length(report, "gap");
+  if (table_of(table_of(report, "fit"), "distance").empty())
+    lines.push_back("no body: it hangs from its pins");
+  else
+    lines.push_back("gap: " + asked + " asked, " + (taken == asked ? "" : taken + " aimed at, ") +
+                    length(table_of(table_of(report, "fit"), "distance"), "min") + " at the nearest place; " +
+                    std::to_string(count_of(report, "touching")) + " vertices touch the body");
+  add_placed(lines, table_of(report, "placed"));
+  add_starts(lines, report);
+  add_fit_lines(lines, table_of(report, "fit"));
+  if (const Json& contact = table_of(report, "self_contact"); contact.contains("crossings_without"))
+    lines.push_back("cloth keeps off cloth: without that " +
+                    counted(count_of(contact, "crossings_without"), "pair") + " of faces crossed");
+  add_crossings(lines, report);
+}
+
+Lines drape_lines(const Json& report) {
+  Lines lines;
+  const Json& garments = list_of(report, "garments");
+  if (garments.empty()) {
+    add_draped(lines, report);
+    return lines;
+  }
+  for (const Json& d : garments) {
+    if (!d.contains("fit")) {
+      add_draped(lines, d);
+      continue;
+    }
+    const Json& strain = table_of(table_of(d, "fit"), "strain");
+    lines.push_back(text_of(d, "garment") + ": " + text_of(d, "outcome") + "; " +
+                    per_cent(value_of(strain, "share_over")) + " of the cloth strained over " +
+                    per_cent(value_of(strain, "over")) +
+                    (table_of(d, "fit").value("body_height", Json()).is_null()
+                         ? ""
+                         : "; ease " + ease_text(table_of(d, "fit"))));
+  }
+  for (const Json& p : list_of(table_of(report, "layers"), "pairs")) {
+    const double compared = value_of(p, "compared");
+    lines.push_back(text_of(p, "outer") + " over " + text_of(p, "inner") + ": " +
+                    counted(count_of(p, "crossings"), "pair") + " of faces cross, " +
+                    std::to_string(count_of(p, "crossings_at_start")) + " as given" +
+                    (compared > 0
+                         ? "; order kept at " + per_cent(value_of(p, "outside") / compared) + " of " +
+                               std::to_string(count_of(p, "compared")) + " vertices that are near"
+                         : ""));
+  }
+  return lines;
+}
+
 int drape(const DrapeArguments& a) {
   catch_interrupts();
   Terminal terminal(a, a.job.budget);
@@ -187,43 +293,43 @@ int drape(const DrapeArguments& a) {
   return code == exit_ok && interrupted() ? exit_interrupted : code;
 }
 
-}  // namespace
-
-void add_drape(CLI::App& app, int& exit_code) {
-  auto a = std::make_shared<DrapeArguments>();
-  a->camera.size = "900,1100";
-  CLI::App* sub = app.add_subcommand(
-      "drape",
-      "Put a finished garment on a body, or hang it from its pins: how it comes to rest, and how it fits\n\n"
-      "  furrow drape shirt.obj --body body.obj -o worn.ply --picture fit.png\n"
-      "  furrow drape skirt.obj --body body.obj --fabric silk --band top=0.95 -o worn.ply\n"
-      "  furrow drape leggings.obj skirt.obj --body body.obj -o worn.ply\n"
-      "  furrow drape shirt.obj --body body.obj --fabrics cotton,silk,denim --picture fabrics.png\n"
-      "  furrow drape shirt.obj --made-for anna.obj --body berta.obj -o worn.ply\n"
-      "  furrow drape curtain.obj --pin-loop top -o hangs.ply");
-  sub->add_option("garment", a->garments,
-                  "garment to read, where it lies on the body or about it, or a scene: a .toml file; several "
-                  "are worn over each other, the first one innermost, and none passes through another")
-      ->required();
-  add_card(*sub, card(a->job));
-  begin_group(*sub, group::picture);
-  sub->add_option("--picture", a->picture, "PNG to write: the garment on the body, coloured, with a legend");
-  begin_group(*sub, group::picture, Audience::few);
-  sub->add_option("--colour", a->colour, "of the picture: strain (default) or distance")
-      ->check(CLI::IsMember({"strain", "distance"}));
-  sub->add_flag("--no-legend", a->no_legend, "leave the bar of colours and the words out of the picture");
-  a->flags.add_to(*sub, io::used_by::drape);
-  add_camera_options(*sub, a->camera);
-  add_common_options(*sub, *a);
-  sub->callback([a, sub, &exit_code] {
-    for (const char* option : {"--view", "--camera", "--eye", "--target"})
-      a->view_chosen = a->view_chosen || sub->count(option) > 0;
-    a->in = a->garments.front();
-    a->out = a->job.output.string();
-    a->animation = a->job.settings.animation.string();
-    a->auto_subdivide = sub->count("--subdivide") && !a->job.subdivide;
-    exit_code = drape(*a);
-  });
+int run_drape(DrapeArguments& a) {
+  for (const char* option : {"--view", "--camera", "--eye", "--target"})
+    a.view_chosen = a.view_chosen || a.typed->count(option) > 0;
+  a.in = a.garments.front();
+  a.out = a.job.output.string();
+  a.animation = a.job.settings.animation.string();
+  a.auto_subdivide = a.typed->count("--subdivide") && !a.job.subdivide;
+  return drape(a);
 }
 
+void add_drape(CLI::App& sub, DrapeArguments& a) {
+  a.camera.size = "900,1100";
+  sub.add_option("garment", a.garments,
+                 "garment to read, where it lies on the body or about it, or a scene: a .toml file; several "
+                 "are worn over each other, the first one innermost, and none passes through another")
+      ->required();
+  add_card(sub, card(a.job));
+  begin_group(sub, group::picture);
+  sub.add_option("--picture", a.picture, "PNG to write: the garment on the body, coloured, with a legend");
+  begin_group(sub, group::picture, Audience::few);
+  sub.add_option("--colour", a.colour, "of the picture: strain (default) or distance")
+      ->check(CLI::IsMember({"strain", "distance"}));
+  sub.add_flag("--no-legend", a.no_legend, "leave the bar of colours and the words out of the picture");
+  a.flags.add_to(sub, io::used_by::drape);
+  add_camera_options(sub, a.camera);
+}
+
+const Subcommand drape_subcommand(
+    130, "drape",
+    "Put a finished garment on a body, or hang it from its pins: how it comes to rest, and how it fits\n\n"
+    "  furrow drape shirt.obj --body body.obj -o worn.ply --picture fit.png\n"
+    "  furrow drape skirt.obj --body body.obj --fabric silk --band top=0.95 -o worn.ply\n"
+    "  furrow drape leggings.obj skirt.obj --body body.obj -o worn.ply\n"
+    "  furrow drape shirt.obj --body body.obj --fabrics cotton,silk,denim --picture fabrics.png\n"
+    "  furrow drape shirt.obj --made-for anna.obj --body berta.obj -o worn.ply\n"
+    "  furrow drape curtain.obj --pin-loop top -o hangs.ply",
+    add_drape, run_drape);
+
+}  // namespace
 }  // namespace furrow::cli

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <memory>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -302,41 +301,40 @@ int fabric(const FabricArguments& a) {
   return list(a);
 }
 
-}  // namespace
-
-void add_fabric(CLI::App& app, int& exit_code) {
-  auto a = std::make_shared<FabricArguments>();
-  CLI::App* sub =
-      app.add_subcommand("fabric",
-                         "List the fabrics, show one, drape a disc of it, or make one of measured figures\n\n"
-                         "  furrow fabric list\n"
-                         "  furrow fabric show black-denim --picture denim.png\n"
-                         "  furrow fabric drape cotton-twill\n"
-                         "  furrow fabric fit kes.toml -o mine.toml\n"
-                         "  furrow fabric fit cotton --drape 0.55 -o mine.toml\n"
-                         "  furrow drape shirt.obj --body body.obj --fabric mine.toml -o worn.ply");
-  sub->add_option("action", a->action, "list (the default), show, drape or fit")
-      ->check(CLI::IsMember({"list", "show", "drape", "fit"}));
-  sub->add_option("name", a->name, "a fabric; fit: or a table of KES or FAST figures (.toml)");
-  sub->add_option(
-      "--picture", a->picture,
-      "PNG to write: a draped disc; show: and swatches pulled at 0, 45 and 90 degrees to the warp");
-  sub->add_option("--rings", a->rings,
-                  "rings of the disc's mesh, a multiple of 5 from 10 to 100 (default 20)");
-  sub->add_option("--drape", a->drape,
-                  "fit: the measured drape coefficient of a 30 cm disc on 18 cm, in (0, 1): all rigidities "
-                  "are scaled to it")
-      ->check(CLI::Range(0.0, 1.0));
-  sub->add_option("--bending-friction", a->bending_friction,
-                  "drape, and the disc of show: the moment that a metre of crease bears before it gives way "
-                  "[N] (default 0; half of Kawabata's 2HB)")
-      ->check(CLI::NonNegativeNumber);
-  sub->add_option("-o,--output", a->out, "fit: file to write, for --fabric; default: it is printed");
-  add_common_options(*sub, *a);
-  sub->callback([a, &exit_code] {
-    if (a->out == "-") a->out.clear();  // which is standard output, too
-    exit_code = fabric(*a);
-  });
+int run_fabric(FabricArguments& a) {
+  if (a.out == "-") a.out.clear();  // which is standard output, too
+  return fabric(a);
 }
 
+void add_fabric(CLI::App& sub, FabricArguments& a) {
+  sub.add_option("action", a.action, "list (the default), show, drape or fit")
+      ->check(CLI::IsMember({"list", "show", "drape", "fit"}));
+  sub.add_option("name", a.name, "a fabric; fit: or a table of KES or FAST figures (.toml)");
+  sub.add_option(
+      "--picture", a.picture,
+      "PNG to write: a draped disc; show: and swatches pulled at 0, 45 and 90 degrees to the warp");
+  sub.add_option("--rings", a.rings, "rings of the disc's mesh, a multiple of 5 from 10 to 100 (default 20)");
+  sub.add_option("--drape", a.drape,
+                 "fit: the measured drape coefficient of a 30 cm disc on 18 cm, in (0, 1): all rigidities "
+                 "are scaled to it")
+      ->check(CLI::Range(0.0, 1.0));
+  sub.add_option("--bending-friction", a.bending_friction,
+                 "drape, and the disc of show: the moment that a metre of crease bears before it gives way "
+                 "[N] (default 0; half of Kawabata's 2HB)")
+      ->check(CLI::NonNegativeNumber);
+  sub.add_option("-o,--output", a.out, "fit: file to write, for --fabric; default: it is printed");
+}
+
+const Subcommand fabric_subcommand(
+    140, "fabric",
+    "List the fabrics, show one, drape a disc of it, or make one of measured figures\n\n"
+    "  furrow fabric list\n"
+    "  furrow fabric show black-denim --picture denim.png\n"
+    "  furrow fabric drape cotton-twill\n"
+    "  furrow fabric fit kes.toml -o mine.toml\n"
+    "  furrow fabric fit cotton --drape 0.55 -o mine.toml\n"
+    "  furrow drape shirt.obj --body body.obj --fabric mine.toml -o worn.ply",
+    add_fabric, run_fabric);
+
+}  // namespace
 }  // namespace furrow::cli

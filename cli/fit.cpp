@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/rest/fit.h"
 
-#include <memory>
-
 #include "cli/camera_options.h"
 #include "cli/card_options.h"
 #include "cli/subcommands.h"
@@ -68,6 +66,32 @@ void write_picture(const FitJobReport& report, const FitArguments& a, const Comm
   save_camera(options, a.camera);
 }
 
+Lines fit_lines(const Json& report) {
+  Lines lines;
+  const Json& garments = list_of(report, "garments");
+  if (garments.empty()) {
+    add_fit_lines(lines, report);
+    for (const char* key : {"tight_zones", "loose_zones"})
+      if (const Json& zones = list_of(report, key); !zones.empty())
+        lines.push_back("look at: " + counted(zones.size(), "zone") + " that " +
+                        (zones.size() == 1 ? "is " : "are ") + std::string(key).substr(0, 5) +
+                        ", the largest at " + per_cent(value_of(zones[0], "height_share")) +
+                        " of the body's height, " + text_of(zones[0], "side"));
+    add_crossings(lines, report);
+    return lines;
+  }
+  for (const Json& g : garments) {
+    const Json& strain = table_of(g, "strain");
+    lines.push_back(text_of(g, "garment") + ": " +
+                    (strain.empty()
+                         ? std::string("strain unknown")
+                         : per_cent(value_of(strain, "share_over")) + " of the cloth strained over " +
+                               per_cent(value_of(strain, "over"))) +
+                    "; ease " + ease_text(g));
+  }
+  return lines;
+}
+
 void fit(const FitArguments& a) {
   check_call(a);
   Terminal terminal(a);
@@ -84,33 +108,33 @@ void fit(const FitArguments& a) {
   print_report(json, a, {fit_lines(json), {a.out, a.picture}, next});
 }
 
-}  // namespace
-
-void add_fit(CLI::App& app) {
-  auto a = std::make_shared<FitArguments>();
-  a->camera.size = "900,1100";
-  CLI::App* sub = app.add_subcommand(
-      "fit",
-      "Tell how a worn garment fits: where it is tight, where it is loose, how much room there is\n\n"
-      "  furrow fit worn.ply --body body.obj --picture fit.png\n"
-      "  furrow fit worn.ply --body body.obj --colour distance --picture room.png -o coloured.ply\n"
-      "  furrow fit --compare S.ply M.ply L.ply --body body.obj --picture sizes.png");
-  sub->add_option("worn", a->worn, "a garment as it is worn: what simulate or drape wrote")->required();
-  add_card(*sub, card(a->job));
-  sub->get_option("--body")->required();
-  sub->add_flag("--compare", a->compare, "several garments side by side, with one scale");
-  sub->add_option("--picture", a->picture, "PNG to write: coloured cloth on the body, with a legend");
-  sub->add_flag("--no-legend", a->no_legend, "leave out the bar of colours and the words beside it");
-  sub->add_option("--captions", a->captions,
-                  "words for the pictures, separated by commas; default: file names");
-  add_camera_options(*sub, a->camera);
-  add_common_options(*sub, *a);
-  sub->callback([a, sub] {
-    a->out = a->job.output.string();
-    for (const char* option : {"--view", "--camera", "--eye", "--target"})
-      a->view_chosen = a->view_chosen || sub->count(option) > 0;
-    fit(*a);
-  });
+void run_fit(FitArguments& a) {
+  a.out = a.job.output.string();
+  for (const char* option : {"--view", "--camera", "--eye", "--target"})
+    a.view_chosen = a.view_chosen || a.typed->count(option) > 0;
+  fit(a);
 }
 
+void add_fit(CLI::App& sub, FitArguments& a) {
+  a.camera.size = "900,1100";
+  sub.add_option("worn", a.worn, "a garment as it is worn: what simulate or drape wrote")->required();
+  add_card(sub, card(a.job));
+  sub.get_option("--body")->required();
+  sub.add_flag("--compare", a.compare, "several garments side by side, with one scale");
+  sub.add_option("--picture", a.picture, "PNG to write: coloured cloth on the body, with a legend");
+  sub.add_flag("--no-legend", a.no_legend, "leave out the bar of colours and the words beside it");
+  sub.add_option("--captions", a.captions,
+                 "words for the pictures, separated by commas; default: file names");
+  add_camera_options(sub, a.camera);
+}
+
+const Subcommand fit_subcommand(
+    150, "fit",
+    "Tell how a worn garment fits: where it is tight, where it is loose, how much room there is\n\n"
+    "  furrow fit worn.ply --body body.obj --picture fit.png\n"
+    "  furrow fit worn.ply --body body.obj --colour distance --picture room.png -o coloured.ply\n"
+    "  furrow fit --compare S.ply M.ply L.ply --body body.obj --picture sizes.png",
+    add_fit, run_fit);
+
+}  // namespace
 }  // namespace furrow::cli

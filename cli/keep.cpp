@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/chain/keep.h"
 
-#include <memory>
+#include <algorithm>
 
 #include "cli/camera_options.h"
 #include "cli/card_options.h"
@@ -36,6 +36,35 @@ KeepJob job_of(const KeepArguments& a) {
   return job;
 }
 
+Lines keep_lines(const Json& report) {
+  const Json& drawn = list_of(report, "lines");
+  const auto fails = [](const Json& line) { return text_of(line, "verdict").rfind("held", 0) != 0; };
+  const auto count = [&](const char* verdict) {
+    return std::count_if(drawn.begin(), drawn.end(),
+                         [&](const Json& line) { return text_of(line, "verdict") == verdict; });
+  };
+  const auto n = std::count_if(drawn.begin(), drawn.end(), fails);
+  const auto in_calm = count("may hold"), open = count("not known");
+  Lines lines{std::to_string(drawn.size() - static_cast<std::size_t>(n)) + " of " +
+              counted(drawn.size(), "line") + " will hold" +
+              (in_calm > 0 ? ", " + std::to_string(in_calm) + " more where nothing blows" : "") +
+              (open > 0 ? ", of " + std::to_string(open) + " it is not known" : "")};
+  for (const bool failing : {true, false})  // what fails first
+    for (const Json& line : drawn)
+      if (fails(line) == failing)
+        lines.push_back(name_of_line(line) + ": " + text_of(line, "words") + " (asked " +
+                        length(line, "asked") + ", drawn " + length(line, "smoothed") + ", left " +
+                        length_or_unknown(value_of(line, "height") * value_of(line, "kept")) + ")");
+  if (lines.size() > 6) {
+    const std::size_t more = lines.size() - 5;
+    lines.resize(5);
+    lines.push_back("and " + counted(more, "more line"));
+  }
+  lines.push_back(balance_of(report, "", "the shape"));
+  add_crossings(lines, report);
+  return lines;
+}
+
 int keep(const KeepArguments& a) {
   catch_interrupts();
   Terminal terminal(a, a.job.budget);
@@ -66,28 +95,26 @@ int keep(const KeepArguments& a) {
                       report.all_hold() && !report.budget_spent);
 }
 
-}  // namespace
-
-void add_keep(CLI::App& app, int& exit_code) {
-  auto a = std::make_shared<KeepArguments>();
-  CLI::App* sub = app.add_subcommand(
-      "keep",
-      "Give a garment the rest state that keeps its drawn lines, and tell of each whether it will hold\n\n"
-      "  furrow keep scenes/kept_sheet.toml -o kept.ply --picture verdict.png\n"
-      "  furrow keep wrinkled.ply --pin-loop top --fabric cotton -o kept.ply --save-state kept-state.ply\n"
-      "  furrow keep --state worn.ply --save-state kept.ply\n"
-      "  furrow simulate --state kept.ply --seconds 5 -o after.ply");
-  sub->add_option("garment", a->in, "wrinkled garment, or a scene: a .toml file");
-  add_card(*sub, card(a->job));
-  begin_group(*sub, group::picture);
-  sub->add_option(
-      "--picture", a->picture,
+void add_keep(CLI::App& sub, KeepArguments& a) {
+  sub.add_option("garment", a.in, "wrinkled garment, or a scene: a .toml file");
+  add_card(sub, card(a.job));
+  begin_group(sub, group::picture);
+  sub.add_option(
+      "--picture", a.picture,
       "picture of the garment, lines coloured by verdict: green held, yellow pressed, orange struts, blue "
       "lower, violet may hold, red cannot hold, grey not known; faces that cross are magenta");
-  a->flags.add_to(*sub, io::used_by::keep);
-  add_camera_options(*sub, a->camera);
-  add_common_options(*sub, *a);
-  sub->callback([a, &exit_code] { exit_code = keep(*a); });
+  a.flags.add_to(sub, io::used_by::keep);
+  add_camera_options(sub, a.camera);
 }
 
+const Subcommand keep_subcommand(
+    90, "keep",
+    "Give a garment the rest state that keeps its drawn lines, and tell of each whether it will hold\n\n"
+    "  furrow keep scenes/kept_sheet.toml -o kept.ply --picture verdict.png\n"
+    "  furrow keep wrinkled.ply --pin-loop top --fabric cotton -o kept.ply --save-state kept-state.ply\n"
+    "  furrow keep --state worn.ply --save-state kept.ply\n"
+    "  furrow simulate --state kept.ply --seconds 5 -o after.ply",
+    add_keep, keep);
+
+}  // namespace
 }  // namespace furrow::cli

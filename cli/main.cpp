@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <csignal>
-#include <cstdio>
 #include <cstdlib>
 #include <iostream>
 #include <new>
@@ -77,28 +76,7 @@ int run(int argc, char** argv) {
   app.set_version_flag("-V,--version", cli::version_text());
   app.require_subcommand(1);
   int exit_code = cli::exit_ok;
-  cli::add_info(app);
-  cli::add_doctor(app, exit_code);
-  cli::add_subdivide(app);
-  cli::add_smooth(app);
-  cli::add_wrinkle(app, exit_code);
-  cli::add_strokes(app);
-  cli::add_quality(app, exit_code);
-  cli::add_simulate(app, exit_code);
-  cli::add_keep(app, exit_code);
-  cli::add_chart(app, exit_code);
-  cli::add_sdf(app);
-  cli::add_render(app);
-  cli::add_drape(app, exit_code);
-  cli::add_fabric(app, exit_code);
-  cli::add_fit(app);
-  cli::add_transfer(app);
-  cli::add_bake(app, exit_code);
-  cli::add_body(app, exit_code);
-  cli::add_batch(app, exit_code);
-  cli::add_studio(app, exit_code);
-  cli::add_completion(app);
-  cli::add_man(app);
+  cli::add_subcommands(app, exit_code);
   const std::vector<std::string> words = words_of(argc, argv);
   if (words[0].rfind("-", 0) != 0 && !has_subcommand(app, words[0]))
     return fail(cli::exit_usage, unknown_subcommand(app, words[0]));

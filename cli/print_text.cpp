@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/print_text.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cstdio>
-#include <string>
 #include <vector>
 
 #include "io/base/field_words.h"
@@ -13,13 +13,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string text_of(const Json& value) {
+std::string plain_text_of(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_null()) return "-";
   if (!value.is_number_float()) return value.dump(-1, ' ', false, Json::error_handler_t::replace);
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value.get<double>());
-  return text;
+  return fmt::format("{:.6g}", value.get<double>());
 }
 
 /// Objects of plain values, two or more keys each.
@@ -45,7 +43,7 @@ void print_table(std::ostream& out, const Json& rows, const std::string& indent)
   std::vector<std::vector<std::string>> columns;
   for (const std::string& key : keys) {
     std::vector<std::string>& column = columns.emplace_back(1, key);
-    for (const Json& row : rows) column.push_back(row.contains(key) ? text_of(row[key]) : "");
+    for (const Json& row : rows) column.push_back(row.contains(key) ? plain_text_of(row[key]) : "");
     std::size_t width = 0;
     for (const std::string& cell : column) width = std::max(width, width_of(cell));
     for (std::string& cell : column) cell.append(width - width_of(cell), ' ');
@@ -84,7 +82,7 @@ void print_text(std::ostream& out, const Json& value, const std::string& indent)
       out << "\n";
       print_text(out, item, indent + "  ");
     } else {
-      out << " " << text_of(item) << "\n";
+      out << " " << plain_text_of(item) << "\n";
     }
   }
 }

@@ -164,6 +164,14 @@ void check_call(const RenderArguments& a) {
   if (!a.captions.empty() && !a.strip) throw UsageError("--captions stand under the pictures of a --strip");
 }
 
+Lines render_lines(const Json& report) {
+  Lines lines{"picture of " + std::to_string(count_of(report, "width")) + " x " +
+              std::to_string(count_of(report, "height")) + " pixels"};
+  if (const long long n = count_of(report, "crossing_pairs"))
+    lines.push_back("look at: " + counted(n, "pair") + " of faces cross, in magenta");
+  return lines;
+}
+
 void render(RenderArguments a) {
   check_call(a);
   take_noted_frame(a, a.meshes);
@@ -193,42 +201,40 @@ void render(RenderArguments a) {
   print_report(json, a, {render_lines(json), {a.out, a.camera.save_camera}});
 }
 
-}  // namespace
-
-void add_render(CLI::App& app) {
-  auto a = std::make_shared<RenderArguments>();
-  CLI::App* sub = app.add_subcommand(
-      "render",
-      "Make a picture of meshes, without a display\n\n"
-      "  furrow render worn.ply --body body.obj -o worn.png\n"
-      "  furrow render worn.ply --body body.obj --figure --no-lines --colour #7a2f3b -o shop.png\n"
-      "  furrow render shirt.obj --view front -o view.png --save-camera cam.json\n"
-      "  furrow render --strip a.obj b.ply c.ply --captions drawn,smoothed,hung -o strip.png");
-  sub->add_option("meshes", a->meshes,
-                  "garments to show; ridges are red, valleys blue, faces that cross magenta")
+void add_render(CLI::App& sub, RenderArguments& a) {
+  sub.add_option("meshes", a.meshes,
+                 "garments to show; ridges are red, valleys blue, faces that cross magenta")
       ->required();
-  sub->add_option("-o,--output", a->out, "PNG to write")->required();
-  sub->add_option("--texture", a->texture, "PNG to lay on the garments, or checker: numbered squares");
-  sub->add_option("--colour", a->colour,
-                  "of the garments, as #rrggbb, in place of their own; --texture goes before it");
-  sub->add_option("--body", a->bodies,
-                  "a body to show with them; may be given again: in a strip with as many, one a picture")
+  sub.add_option("-o,--output", a.out, "PNG to write")->required();
+  sub.add_option("--texture", a.texture, "PNG to lay on the garments, or checker: numbered squares");
+  sub.add_option("--colour", a.colour,
+                 "of the garments, as #rrggbb, in place of their own; --texture goes before it");
+  sub.add_option("--body", a.bodies,
+                 "a body to show with them; may be given again: in a strip with as many, one a picture")
       ->allow_extra_args(false);
-  sub->add_flag("--figure", a->figure, "the whole body is in the picture, not the garment alone");
-  sub->add_option("--strokes", a->strokes, "strokes to draw on the first garment; may be given again")
+  sub.add_flag("--figure", a.figure, "the whole body is in the picture, not the garment alone");
+  sub.add_option("--strokes", a.strokes, "strokes to draw on the first garment; may be given again")
       ->allow_extra_args(false);
-  sub->add_flag(
-      "--weave", a->weave,
+  sub.add_flag(
+      "--weave", a.weave,
       "the threads of the garments: a long red stroke along the warp, a short blue one along the weft");
-  sub->add_option("--warp", a->warp,
-                  "with --weave, where the warp runs: file, texture, texture-u, x, y, z or a stroke file "
-                  "(default: the map in its PLY, else texture, else upwards)");
-  sub->add_flag("--no-lines", a->no_lines, "leave out the lines that the garments carry");
-  sub->add_flag("--strip", a->strip, "one picture a garment, side by side from the same camera");
-  sub->add_option("--captions", a->captions, "words under the pictures of a strip, separated by commas");
-  add_camera_options(*sub, a->camera);
-  add_common_options(*sub, *a);
-  sub->callback([a] { render(*a); });
+  sub.add_option("--warp", a.warp,
+                 "with --weave, where the warp runs: file, texture, texture-u, x, y, z or a stroke file "
+                 "(default: the map in its PLY, else texture, else upwards)");
+  sub.add_flag("--no-lines", a.no_lines, "leave out the lines that the garments carry");
+  sub.add_flag("--strip", a.strip, "one picture a garment, side by side from the same camera");
+  sub.add_option("--captions", a.captions, "words under the pictures of a strip, separated by commas");
+  add_camera_options(sub, a.camera);
 }
 
+const Subcommand render_subcommand(
+    120, "render",
+    "Make a picture of meshes, without a display\n\n"
+    "  furrow render worn.ply --body body.obj -o worn.png\n"
+    "  furrow render worn.ply --body body.obj --figure --no-lines --colour #7a2f3b -o shop.png\n"
+    "  furrow render shirt.obj --view front -o view.png --save-camera cam.json\n"
+    "  furrow render --strip a.obj b.ply c.ply --captions drawn,smoothed,hung -o strip.png",
+    add_render, render);
+
+}  // namespace
 }  // namespace furrow::cli

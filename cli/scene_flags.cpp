@@ -10,7 +10,7 @@ namespace furrow::cli {
 namespace {
 
 /// "1,2,3" as a list, so that vectors need no brackets.
-io::Json value_of(const std::string& text, bool is_text) {
+io::Json typed_value_of(const std::string& text, bool is_text) {
   if (is_text) return text;
   if (text.find(',') != std::string::npos && text.find('[') == std::string::npos)
     return io::parse_value("[" + text + "]");
@@ -84,7 +84,7 @@ void SceneFlags::apply(io::TomlDocument& document) const {
     const io::Setting& s = *g.setting;
     if (!g.option->count()) continue;
     if (s.kind != io::Kind::yes_no)
-      io::set_value(document, s.path, value_of(g.text, s.is_text()), s.name());
+      io::set_value(document, s.path, typed_value_of(g.text, s.is_text()), s.name());
     else if (g.is_on)
       io::set_value(document, s.path, true, s.name());
   }

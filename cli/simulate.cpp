@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/move/simulate.h"
 
+#include <algorithm>
+#include <cmath>
 #include <iostream>
-#include <memory>
 
 #include "cli/card_options.h"
 #include "cli/common.h"
@@ -19,7 +20,6 @@ namespace {
 struct SimulateArguments : CommonArguments {
   std::string in;
   SimulateJob job;
-  const CLI::App* typed = nullptr;
   SceneFlags flags;
 };
 
@@ -61,6 +61,66 @@ std::vector<std::string> outputs_of(const Json& settings) {
   return files;
 }
 
+constexpr double most_off_by_steps = 0.2;  // of all energy that is lost, without a hint
+
+/// Of parts of the processor time, the largest first, without what rounds to nothing.
+std::string shares_of(const Json& times) {
+  std::vector<std::pair<double, std::string>> parts;
+  for (const auto& [name, part] : times.items())
+    if (value_of(part, "share") >= 0.005) parts.emplace_back(-value_of(part, "share"), name);
+  std::stable_sort(parts.begin(), parts.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::string text;
+  for (const auto& [share, name] : parts)
+    text += (text.empty() ? "" : ", ") + name + " " + std::to_string(std::lround(-100 * share)) + " %";
+  std::replace(text.begin(), text.end(), '_', '-');
+  return text;
+}
+
+/// "implicit step", "leapfrog step": one of a run's.
+std::string step_of(const Json& report) { return text_of(report, "integrator") + " step"; }
+
+/// Where the energy of implicit steps went; "" where none was lost.
+std::string losses_of(const Json& balance) {
+  const Json& lost = table_of(balance, "lost");
+  const double air = value_of(lost, "air"), steps = value_of(lost, "steps"), off = std::abs(steps);
+  if (!(air + off > 0)) return "";
+  const auto joules = [](double energy) { return number(1000 * energy) + " mJ"; };
+  std::string line = "energy lost: " + joules(air) + " to the air; the steps " +
+                     (steps < 0 ? "made " : "took ") + joules(off);
+  if (off > most_off_by_steps * (air + off)) line += " (less with a shorter --dt)";
+  return line;
+}
+
+Lines simulate_lines(const Json& report) {
+  Lines lines;
+  lines.push_back((text_of(report, "title").empty() ? "" : text_of(report, "title") + ": ") +
+                  text_of(report, "outcome") + " at " + number(value_of(report, "time")) + " s, " +
+                  counted(count_of(report, "steps"), step_of(report)) + " of " +
+                  number(value_of(report, "dt")) + " s (" + number(value_of(report, "seconds")) +
+                  " s of work)");
+  const Json& strain = table_of(report, "strain");
+  lines.push_back("strain: " + per_cent(value_of(strain, "p99")) +
+                  " and less in 99 % of the cloth, at most " + per_cent(value_of(strain, "max")));
+  if (const Json& rest = table_of(report, "at_rest"); !rest.empty())
+    lines.push_back(std::string(rest.value("converged", false) ? "at rest" : "not at rest") +
+                    " before it moved, after " + counted(count_of(rest, "iterations"), "iteration") + " (" +
+                    number(value_of(rest, "seconds")) + " s); angle defect " +
+                    number(value_of(rest, "angle_defect_before")) + " drawn, " +
+                    number(value_of(rest, "angle_defect")) + " rad/m^2 at rest");
+  if (report.contains("contact_gap"))
+    lines.push_back("body: gap " + length(report, "contact_gap") + ", " +
+                    std::to_string(count_of(report, "contacts")) + " vertices in contact, " +
+                    std::to_string(count_of(report, "vertices_inside")) + " inside");
+  add_heights(lines, report);
+  if (const std::string lost = losses_of(table_of(report, "balance")); !lost.empty()) lines.push_back(lost);
+  if (const Json& choice = table_of(report, "choice"); !choice.empty())
+    lines.push_back(text_of(choice, "says"));
+  if (report.contains("times")) lines.push_back("processor time: " + shares_of(report["times"]));
+  add_crossings(lines, report);
+  return lines;
+}
+
 /// The mesh, if it goes to standard output, then the report.
 void print(const SimulateReport& report, CommonArguments common) {
   common = in_frame(common, report.frame);
@@ -87,26 +147,23 @@ int simulate(const SimulateArguments& a) {
   return exit_code_of(report.run.outcome == physics::Outcome::stopped_by_observer, !report.fails());
 }
 
-}  // namespace
-
-void add_simulate(CLI::App& app, int& exit_code) {
-  auto a = std::make_shared<SimulateArguments>();
-  CLI::App* sub =
-      app.add_subcommand("simulate",
-                         "Let a garment hang, fall and rest on a body\n\n"
-                         "  furrow simulate sheet.ply --pin-box -0.5,0,-1,-0.5,1,1 -o hung.ply\n"
-                         "  furrow simulate wrinkled.ply --body body.obj -o worn.ply\n"
-                         "  furrow simulate scenes/skirt.toml --set material.bending=1\n"
-                         "  furrow simulate wrinkled.ply --body body.obj --stop-at 1 --save-state at1.ply\n"
-                         "  furrow simulate --state at1.ply -o worn.ply");
-  sub->add_option(
-      "garment", a->in,
+void add_simulate(CLI::App& sub, SimulateArguments& a) {
+  sub.add_option(
+      "garment", a.in,
       "garment to read (PLY of furrow wrinkle brings rest lengths and masses), or a scene: a .toml file");
-  add_card(*sub, card(a->job));
-  a->flags.add_to(*sub, io::used_by::simulate);
-  a->typed = sub;
-  add_common_options(*sub, *a);
-  sub->callback([a, &exit_code] { exit_code = simulate(*a); });
+  add_card(sub, card(a.job));
+  a.flags.add_to(sub, io::used_by::simulate);
 }
 
+const Subcommand simulate_subcommand(
+    80, "simulate",
+    "Let a garment hang, fall and rest on a body\n\n"
+    "  furrow simulate sheet.ply --pin-box -0.5,0,-1,-0.5,1,1 -o hung.ply\n"
+    "  furrow simulate wrinkled.ply --body body.obj -o worn.ply\n"
+    "  furrow simulate scenes/skirt.toml --set material.bending=1\n"
+    "  furrow simulate wrinkled.ply --body body.obj --stop-at 1 --save-state at1.ply\n"
+    "  furrow simulate --state at1.ply -o worn.ply",
+    add_simulate, simulate);
+
+}  // namespace
 }  // namespace furrow::cli

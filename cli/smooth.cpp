@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/mesh/smooth.h"
 
-#include <memory>
-
 #include "cli/card_options.h"
 #include "cli/common.h"
 #include "cli/subcommands.h"
@@ -16,6 +14,11 @@ struct SmoothArguments : CommonArguments {
   SmoothJob job;
 };
 
+Lines smooth_lines(const Json& report) {
+  return {"smoothed " + std::to_string(count_of(report, "vertices")) + " vertices in " +
+          counted(count_of(report, "iterations"), "pair") + " of steps"};
+}
+
 void smooth(SmoothArguments& a) {
   a.job.mesh = std::filesystem::path(a.in);
   a.job.frame = a;
@@ -28,18 +31,16 @@ void smooth(SmoothArguments& a) {
   print_report(json, a, {smooth_lines(json), {a.out}});
 }
 
-}  // namespace
-
-void add_smooth(CLI::App& app) {
-  auto a = std::make_shared<SmoothArguments>();
-  CLI::App* sub = app.add_subcommand("smooth",
-                                     "Smooth a whole mesh without shrinking it (Taubin)\n\n  furrow smooth "
-                                     "scan.ply -o smooth.ply --iterations 20");
-  sub->add_option("mesh", a->in, "mesh to read")->required();
-  add_card(*sub, card(a->job));
-  sub->get_option("--output")->required();
-  add_common_options(*sub, *a);
-  sub->callback([a] { smooth(*a); });
+void add_smooth(CLI::App& sub, SmoothArguments& a) {
+  sub.add_option("mesh", a.in, "mesh to read")->required();
+  add_card(sub, card(a.job));
+  sub.get_option("--output")->required();
 }
 
+const Subcommand smooth_subcommand(40, "smooth",
+                                   "Smooth a whole mesh without shrinking it (Taubin)\n\n  furrow smooth "
+                                   "scan.ply -o smooth.ply --iterations 20",
+                                   add_smooth, smooth);
+
+}  // namespace
 }  // namespace furrow::cli

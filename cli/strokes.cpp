@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <iostream>
-#include <memory>
 
 #include "cli/common.h"
 #include "cli/subcommands.h"
@@ -115,6 +114,25 @@ void check_output_name(const StrokesArguments& a) {
   if (io::ending_of(a.in) != ".json" || !same_file(a.out, a.in)) check_replaced({a.out}, {a.in}, terminal);
 }
 
+Lines strokes_lines(const Json& report) {
+  const Json& strokes = list_of(report, "strokes");
+  Lines lines{counted(strokes.size(), "stroke")};
+  for (const Json& stroke : strokes) {
+    const std::string unit = text_of(stroke, "unit");
+    std::string line = (text_of(stroke, "name").empty() ? "(no name)" : text_of(stroke, "name")) +
+                       ": height " + length(stroke, "height");
+    if (stroke.contains("width")) line += ", width " + length(stroke, "width");
+    if (stroke.contains("length_on_garment"))
+      line += ", " + length(stroke, "length_on_garment") + " long on the garment";
+    else if (unit == "m")
+      line += ", " + length(stroke, "length") + " long";
+    line += ", drawn as " + text_of(stroke, "kind");
+    if (stroke.value("closed", false)) line += ", closed";
+    lines.push_back(line);
+  }
+  return lines;
+}
+
 void strokes(StrokesArguments a) {
   bool edits = !a.order.empty();
   for (const auto* list : {&a.remove, &a.move, &a.change, &a.rename}) edits = edits || !list->empty();
@@ -143,31 +161,20 @@ void strokes(StrokesArguments a) {
   print_report(report, a, {strokes_lines(report), {a.out}});
 }
 
-}  // namespace
-
-void add_strokes(CLI::App& app) {
-  auto a = std::make_shared<StrokesArguments>();
-  CLI::App* sub = app.add_subcommand(
-      "strokes",
-      "List and change strokes; those of a wrinkled PLY can be written as a file\n\n"
-      "  furrow strokes lines.json --garment shirt.obj\n"
-      "  furrow strokes lines.json --move fold=0,0.02,0 --change hem.height=-0.01 -o lines.json\n"
-      "  furrow strokes lines.json --change fold.width=0.06 --order hem,fold -o lines.json\n"
-      "  furrow strokes wrinkled.ply --remove fold -o lines.json");
-  sub->add_option("strokes", a->in, "strokes: JSON, the l elements of an OBJ file, or a wrinkled PLY")
+void add_strokes(CLI::App& sub, StrokesArguments& a) {
+  sub.add_option("strokes", a.in, "strokes: JSON, the l elements of an OBJ file, or a wrinkled PLY")
       ->required();
-  sub->add_option("-o,--output", a->out, "JSON to write");
-  sub->add_option("--garment", a->garment, "lay them on this garment, and tell their lengths there [m]");
-  sub->add_flag("--in-space", a->in_space, "write the strokes as points in space, as they lie on --garment");
+  sub.add_option("-o,--output", a.out, "JSON to write");
+  sub.add_option("--garment", a.garment, "lay them on this garment, and tell their lengths there [m]");
+  sub.add_flag("--in-space", a.in_space, "write the strokes as points in space, as they lie on --garment");
   const auto several = [&](const char* name, auto& value, const char* help) {
-    sub->add_option(name, value, help)->allow_extra_args(false);
+    sub.add_option(name, value, help)->allow_extra_args(false);
   };
-  several("--remove", a->remove,
-          "NAME: take this stroke out; may be given several times, as all that follow");
-  several("--move", a->move,
+  several("--remove", a.remove, "NAME: take this stroke out; may be given several times, as all that follow");
+  several("--move", a.move,
           "NAME=dx,dy,dz [m, y up], or =dx,dy in the pixels or texture that it is drawn in");
   several(
-      "--change", a->change,
+      "--change", a.change,
       "NAME.height=VALUE [m], > 0 ridge, < 0 valley; NAME.width=VALUE [m], > 0, of the whole fold, or none: "
       "rule "
       "fold chooses it, with the others it is as wide as the smoothing of the mesh makes it; "
@@ -179,13 +186,21 @@ void add_strokes(CLI::App& app) {
       "line as drawn, in tenths of the width, 0: none, NAME.set=VALUE, the share of its angles that becomes "
       "rest "
       "angle [0, 1]");
-  several("--rename", a->rename, "NAME=OTHER");
-  sub->add_option(
-      "--order", a->order,
+  several("--rename", a.rename, "NAME=OTHER");
+  sub.add_option(
+      "--order", a.order,
       "NAME,NAME,...: these come first, in this order, the others after them (where lines meet the "
       "later one owns what they share); by their new names");
-  add_common_options(*sub, *a);
-  sub->callback([a] { strokes(*a); });
 }
 
+const Subcommand strokes_subcommand(
+    60, "strokes",
+    "List and change strokes; those of a wrinkled PLY can be written as a file\n\n"
+    "  furrow strokes lines.json --garment shirt.obj\n"
+    "  furrow strokes lines.json --move fold=0,0.02,0 --change hem.height=-0.01 -o lines.json\n"
+    "  furrow strokes lines.json --change fold.width=0.06 --order hem,fold -o lines.json\n"
+    "  furrow strokes wrinkled.ply --remove fold -o lines.json",
+    add_strokes, strokes);
+
+}  // namespace
 }  // namespace furrow::cli

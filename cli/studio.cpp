@@ -162,35 +162,33 @@ int serve(const StudioArguments&) {
 }
 #endif
 
-}  // namespace
-
-void add_studio(CLI::App& app, int& exit_code) {
-  auto a = std::make_shared<StudioArguments>();
-  CLI::App* sub = app.add_subcommand("studio",
-                                     "Draw on a garment with a pen, in the browser, and watch it wrinkle\n\n"
-                                     "  furrow studio\n"
-                                     "  furrow studio skirt.obj --body body.obj\n"
-                                     "  furrow studio scene.toml --project tuesday\n"
-                                     "  furrow studio skirt-studio\n"
-                                     "  furrow studio --replay skirt-studio --headless");
-  sub->add_option(
-      "garment", a->in,
+void add_studio(CLI::App& sub, StudioArguments& a) {
+  sub.add_option(
+      "garment", a.in,
       "garment to draw on, a scene (a .toml file), or the folder of a drawing to go on with; none: "
       "it is chosen in the page");
-  sub->add_option("--project", a->project,
-                  "folder in which every step is kept; made if it is not there (default: the garment's name "
-                  "and -studio)");
-  sub->add_option("--made-for", a->made_for,
-                  "body that the garment was made for and lies about, in its unit: it is drawn on there, and "
-                  "a drape brings it to --body in its own size");
-  sub->add_option("--port", a->port, "of 127.0.0.1 to serve on (default: a free one)");
-  sub->add_flag("--no-browser", a->no_browser, "print the address, and open no browser");
-  sub->add_flag("--replay", a->replay,
-                "do all that the log of a project says once more, and tell whether it ends in the same bits");
-  sub->add_flag("--headless", a->headless, "with --replay: without a page");
-  a->flags.add_to(*sub, io::used_by::wrinkle);
-  add_common_options(*sub, *a);
-  sub->callback([a, &exit_code] { exit_code = serve(*a); });
+  sub.add_option("--project", a.project,
+                 "folder in which every step is kept; made if it is not there (default: the garment's name "
+                 "and -studio)");
+  sub.add_option("--made-for", a.made_for,
+                 "body that the garment was made for and lies about, in its unit: it is drawn on there, and "
+                 "a drape brings it to --body in its own size");
+  sub.add_option("--port", a.port, "of 127.0.0.1 to serve on (default: a free one)");
+  sub.add_flag("--no-browser", a.no_browser, "print the address, and open no browser");
+  sub.add_flag("--replay", a.replay,
+               "do all that the log of a project says once more, and tell whether it ends in the same bits");
+  sub.add_flag("--headless", a.headless, "with --replay: without a page");
+  a.flags.add_to(sub, io::used_by::wrinkle);
 }
 
+const Subcommand studio_subcommand(200, "studio",
+                                   "Draw on a garment with a pen, in the browser, and watch it wrinkle\n\n"
+                                   "  furrow studio\n"
+                                   "  furrow studio skirt.obj --body body.obj\n"
+                                   "  furrow studio scene.toml --project tuesday\n"
+                                   "  furrow studio skirt-studio\n"
+                                   "  furrow studio --replay skirt-studio --headless",
+                                   add_studio, serve);
+
+}  // namespace
 }  // namespace furrow::cli

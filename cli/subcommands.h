@@ -1,46 +1,44 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <CLI/CLI.hpp>
+#include <functional>
+#include <memory>
 #include <string>
+#include <type_traits>
 
-/// One function a subcommand, each in a file of its name: it parses, calls the library, writes.
+#include "cli/common.h"
+
 namespace furrow::cli {
 
-void add_info(CLI::App& app);
-/// Sets exit_code where something is wrong, or is left after repair.
-void add_doctor(CLI::App& app, int& exit_code);
-/// Sets exit_code where a target is missed, with --check.
-void add_quality(CLI::App& app, int& exit_code);
-void add_subdivide(CLI::App& app);
-void add_smooth(CLI::App& app);
-/// Sets exit_code where what is drawn does not come to rest.
-void add_wrinkle(CLI::App& app, int& exit_code);
-void add_strokes(CLI::App& app);
-/// Sets exit_code where the run was interrupted or diverged.
-void add_simulate(CLI::App& app, int& exit_code);
-/// Sets exit_code where nothing meets the tolerance, or the judgement was broken off.
-void add_chart(CLI::App& app, int& exit_code);
-/// Sets exit_code where a line cannot hold, or the work was interrupted.
-void add_keep(CLI::App& app, int& exit_code);
-void add_sdf(CLI::App& app);
-void add_render(CLI::App& app);
-void add_drape(CLI::App& app, int& exit_code);
-/// Sets exit_code where no start of a disc comes to rest.
-void add_fabric(CLI::App& app, int& exit_code);
-void add_fit(CLI::App& app);
-/// Sets exit_code where the studio was not built.
-void add_studio(CLI::App& app, int& exit_code);
-void add_transfer(CLI::App& app);
-/// Sets exit_code where the run was interrupted.
-void add_bake(CLI::App& app, int& exit_code);
-/// Sets exit_code where a measurement is missed.
-void add_body(CLI::App& app, int& exit_code);
-/// Sets exit_code where a case failed or is open.
-void add_batch(CLI::App& app, int& exit_code);
+/// Makes a subcommand known to the program. Each stands in a source of its name, which parses, calls a job
+/// and prints: `const Subcommand quality_subcommand(70, "quality", "Measure how …", add_quality, quality);`
+class Subcommand {
+ public:
+  /// place: where --help lists it, beside those of smaller and of greater numbers; words: a line, and what
+  /// follows it in its own help. add: its options, to which those that all have are added. run: what it does,
+  /// with the arguments as they were typed; it returns the exit code, unless that tells of errors alone.
+  template <class Arguments, class Run>
+  Subcommand(int place, const std::string& name, const std::string& words,
+             void (*add)(CLI::App& sub, Arguments&), Run run)
+      : Subcommand(place, [=](CLI::App& app, int& exit_code) {
+          auto a = std::make_shared<Arguments>();
+          CLI::App* sub = app.add_subcommand(name, words);
+          add(*sub, *a);
+          add_common_options(*sub, *a);
+          a->typed = sub;
+          sub->callback([a, run, &exit_code] {
+            if constexpr (std::is_void_v<std::invoke_result_t<Run, Arguments&>>)
+              run(*a);
+            else
+              exit_code = run(*a);
+          });
+        }) {}
+  /// One that needs the whole program, or has options of its own only.
+  Subcommand(int place, std::function<void(CLI::App& app, int& exit_code)> add);
+};
 
-/// These two tell of all others, so they are added last.
-void add_completion(CLI::App& app);
-void add_man(CLI::App& app);
+/// Adds all subcommands, in the order of their places.
+void add_subcommands(CLI::App& app, int& exit_code);
 
 /// The program's version and those of the libraries that it was built with.
 std::string version_text();

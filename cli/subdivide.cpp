@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/mesh/subdivide.h"
 
-#include <memory>
-
 #include "cli/card_options.h"
 #include "cli/common.h"
 #include "cli/subcommands.h"
@@ -14,8 +12,19 @@ namespace {
 struct SubdivideArguments : CommonArguments {
   std::string in;
   SubdivideJob job;
-  const CLI::App* typed = nullptr;
 };
+
+Lines subdivide_lines(const Json& report) {
+  Lines lines{"refined to " + std::to_string(count_of(report, "vertices")) + " vertices, " +
+              std::to_string(count_of(report, "faces")) + " faces"};
+  if (report.contains("inserted"))
+    lines.push_back(std::to_string(count_of(report, "inserted")) +
+                    " vertices inserted along the strokes; smallest angle " +
+                    number(value_of(report, "min_angle_deg")) + " degrees");
+  if (const std::size_t n = list_of(report, "line_edges_missing").size())
+    lines.push_back("look at: " + counted(n, "edge") + " of the lines could not be made");
+  return lines;
+}
 
 void subdivide(SubdivideArguments& a) {
   SubdivideJob& job = a.job;
@@ -42,21 +51,18 @@ void subdivide(SubdivideArguments& a) {
                     : std::vector<std::string>{"furrow", "wrinkle", a.out, "LINES", "-o", "wrinkled.ply"}});
 }
 
-}  // namespace
-
-void add_subdivide(CLI::App& app) {
-  auto a = std::make_shared<SubdivideArguments>();
-  CLI::App* sub =
-      app.add_subcommand("subdivide",
-                         "Refine a mesh along strokes or everywhere; strokes leave its shape as it is\n\n"
-                         "  furrow subdivide shirt.obj --subdivide 2 -o fine.obj\n"
-                         "  furrow subdivide shirt.obj --strokes lines.json -o lined.ply");
-  sub->add_option("mesh", a->in, "mesh to read")->required();
-  add_card(*sub, card(a->job));
-  sub->get_option("--output")->required();
-  add_common_options(*sub, *a);
-  a->typed = sub;
-  sub->callback([a] { subdivide(*a); });
+void add_subdivide(CLI::App& sub, SubdivideArguments& a) {
+  sub.add_option("mesh", a.in, "mesh to read")->required();
+  add_card(sub, card(a.job));
+  sub.get_option("--output")->required();
 }
 
+const Subcommand subdivide_subcommand(
+    30, "subdivide",
+    "Refine a mesh along strokes or everywhere; strokes leave its shape as it is\n\n"
+    "  furrow subdivide shirt.obj --subdivide 2 -o fine.obj\n"
+    "  furrow subdivide shirt.obj --strokes lines.json -o lined.ply",
+    add_subdivide, subdivide);
+
+}  // namespace
 }  // namespace furrow::cli

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/usage_words.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <regex>
 #include <sstream>
@@ -32,9 +33,7 @@ std::string in_metres(double number, const std::string& unit, double least, doub
   for (const auto& [name, metres] : {std::pair("m", 1.0), {"cm", 1e-2}, {"mm", 1e-3}}) {
     const double length = number * metres;
     if (unit != name || length < least || length > most) continue;
-    char text[32];
-    std::snprintf(text, sizeof text, "%.9g", length);
-    return std::string("; lengths are metres: write ") + text;
+    return fmt::format("; lengths are metres: write {:.9g}", length);
   }
   return "";
 }
@@ -55,12 +54,8 @@ std::string words_of_conversion(const std::string& what) {
 /// "0.9 to 2.5", "0 or more", "more than 0": CLI11 prints the largest number there is where there is no
 /// bound.
 std::string range_text(double value, double least, double most) {
-  char text[64];
-  if (most < 1e300)
-    std::snprintf(text, sizeof text, "%.9g to %.9g", least, most);
-  else
-    std::snprintf(text, sizeof text, value == least ? "more than %.9g" : "%.9g or more", least);
-  return text;
+  if (most < 1e300) return fmt::format("{:.9g} to {:.9g}", least, most);
+  return value == least ? fmt::format("more than {:.9g}", least) : fmt::format("{:.9g} or more", least);
 }
 
 /// CLI11's message for a number out of its range, in words that help; anything else comes back as it is.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/chain/wrinkle.h"
 
+#include <algorithm>
 #include <iostream>
-#include <memory>
 
 #include "cli/camera_options.h"
 #include "cli/card_options.h"
@@ -31,7 +31,6 @@ struct WrinkleArguments : CommonArguments {
   WrinkleJob job;
   SceneFlags flags;  ///< of --rest keep and --settle
   CameraArguments camera;
-  const CLI::App* typed = nullptr;  ///< what was on the command line
 };
 
 void check_call(const WrinkleArguments& a) {
@@ -160,6 +159,33 @@ void write_preview(const WrinkleReport& report, const WrinkleArguments& a) {
   save_camera(options, a.camera);
 }
 
+Lines wrinkle_lines(const Json& report) {
+  const Json& drawn = list_of(report, "lines");
+  Lines lines{counted(drawn.size(), "line") + " drawn, " + std::to_string(count_of(report, "inserted")) +
+              " vertices inserted; smallest angle " + number(value_of(report, "min_angle_deg")) + " degrees"};
+  const std::size_t most = 4;
+  for (std::size_t i = 0; i < std::min(most, drawn.size()); ++i) {
+    const Json& line = drawn[i];
+    const std::string asked = name_of_line(line) + ": asked " + length(line, "height");
+    lines.push_back(line.contains("crest_height") ? asked + ", " + length(line, "crest_height") +
+                                                        " at the crest, " + length(line, "width") + " wide"
+                                                  : asked + ", drawn " + length(line, "drawn_height") +
+                                                        ", smoothed to " + length(line, "smoothed_height"));
+  }
+  if (drawn.size() > most) lines.push_back("and " + counted(drawn.size() - most, "more line"));
+  if (const std::size_t n = list_of(report, "line_edges_missing").size())
+    lines.push_back("look at: " + counted(n, "edge") + " of the lines could not be made");
+  if (const Json& kept = table_of(report, "kept"); !kept.empty())
+    lines.push_back(balance_of(kept, "kept: ", "the drawn shape"));
+  add_crossings(lines, report);
+  if (const Json& rest = table_of(report, "at_rest"); !rest.empty()) {
+    lines.push_back("then " + text_of(rest, "outcome") + " (" + number(value_of(rest, "seconds")) +
+                    " s); angle defect " + number(value_of(rest, "angle_defect")) + " rad/m^2");
+    add_heights(lines, rest);
+  }
+  return lines;
+}
+
 int wrinkle(const WrinkleArguments& a) {
   check_call(a);
   if (a.job.settle) catch_interrupts();
@@ -186,44 +212,43 @@ int wrinkle(const WrinkleArguments& a) {
   return exit_code_of(interrupted(), report.failures.empty() && !report.budget_spent);
 }
 
-}  // namespace
-
-void add_wrinkle(CLI::App& app, int& exit_code) {
-  auto a = std::make_shared<WrinkleArguments>();
-  CLI::App* sub = app.add_subcommand(
-      "wrinkle",
-      "Turn drawn ridge and valley lines into wrinkles\n\n"
-      "  furrow wrinkle shirt.obj lines.json -o wrinkled.ply\n"
-      "  furrow wrinkle shirt.obj lines.json --picture lines.png --view front\n"
-      "  furrow wrinkle wrinkled.ply --without fold -o less.ply\n"
-      "  furrow wrinkle --state at1.ply more.json -o at1-more.ply\n"
-      "  furrow wrinkle sheet.obj lines.json --rest keep --fabric denim --pin-loop top -o kept.ply\n"
-      "  furrow wrinkle skirt.obj lines.obj --height -0.02 -o wrinkled.ply\n"
-      "  furrow wrinkle skirt.obj lines.json --settle --body body.obj --pin-loop top -o rests.ply");
-  sub->add_option("mesh", a->in, "garment to read; with --state: the file of strokes")->required();
-  begin_group(*sub, group::lines);
-  sub->add_option(
-      "strokes,--strokes", a->strokes,
-      "lines: JSON, or the l elements of an OBJ file; none: those that the mesh, a wrinkled PLY, was "
-      "made with are drawn again on its garment, with its options");
-  add_card(*sub, card(a->job));
-  begin_group(*sub, group::picture);
-  sub->add_option(
-      "--picture", a->preview,
-      "PNG of what is inserted where, before anything is displaced, faces that cross in magenta; without "
-      "-o no mesh is written");
-  a->flags.add_to(*sub, io::used_by::wrinkle);
-  a->camera.quality = "draft";  // a look before anything is changed: four times faster than normal
-  add_camera_options(*sub, a->camera);
-  add_common_options(*sub, *a);
-  a->typed = sub;
-  sub->callback([a, &exit_code] {
-    a->out = a->job.output.string();
-    a->inserted = a->job.inserted.string();
-    a->smoothed = a->job.smoothed.string();
-    a->state = a->job.state_path.string();
-    exit_code = wrinkle(*a);
-  });
+int run_wrinkle(WrinkleArguments& a) {
+  a.out = a.job.output.string();
+  a.inserted = a.job.inserted.string();
+  a.smoothed = a.job.smoothed.string();
+  a.state = a.job.state_path.string();
+  return wrinkle(a);
 }
 
+void add_wrinkle(CLI::App& sub, WrinkleArguments& a) {
+  sub.add_option("mesh", a.in, "garment to read; with --state: the file of strokes")->required();
+  begin_group(sub, group::lines);
+  sub.add_option(
+      "strokes,--strokes", a.strokes,
+      "lines: JSON, or the l elements of an OBJ file; none: those that the mesh, a wrinkled PLY, was "
+      "made with are drawn again on its garment, with its options");
+  add_card(sub, card(a.job));
+  begin_group(sub, group::picture);
+  sub.add_option(
+      "--picture", a.preview,
+      "PNG of what is inserted where, before anything is displaced, faces that cross in magenta; without "
+      "-o no mesh is written");
+  a.flags.add_to(sub, io::used_by::wrinkle);
+  a.camera.quality = "draft";  // a look before anything is changed: four times faster than normal
+  add_camera_options(sub, a.camera);
+}
+
+const Subcommand wrinkle_subcommand(
+    50, "wrinkle",
+    "Turn drawn ridge and valley lines into wrinkles\n\n"
+    "  furrow wrinkle shirt.obj lines.json -o wrinkled.ply\n"
+    "  furrow wrinkle shirt.obj lines.json --picture lines.png --view front\n"
+    "  furrow wrinkle wrinkled.ply --without fold -o less.ply\n"
+    "  furrow wrinkle --state at1.ply more.json -o at1-more.ply\n"
+    "  furrow wrinkle sheet.obj lines.json --rest keep --fabric denim --pin-loop top -o kept.ply\n"
+    "  furrow wrinkle skirt.obj lines.obj --height -0.02 -o wrinkled.ply\n"
+    "  furrow wrinkle skirt.obj lines.json --settle --body body.obj --pin-loop top -o rests.ply",
+    add_wrinkle, run_wrinkle);
+
+}  // namespace
 }  // namespace furrow::cli

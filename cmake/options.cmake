@@ -25,9 +25,16 @@ endif()
 # What spends its time in the libraries and not in itself (the program, the tests) is compiled faster, not better.
 set(furrow_light_options $<IF:$<CONFIG:Debug>,-O0,-O1>)
 
-# furrow_add_library(NAME SOURCES…): a static library `furrow::NAME` of this folder, a component of the package.
+# furrow_sources(OUT): all sources and headers of this folder and its rooms, by name: a new one is listed nowhere.
+function(furrow_sources out)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} *.h *.cpp)
+  set(${out} ${sources} PARENT_SCOPE)
+endfunction()
+
+# furrow_add_library(NAME): a static library `furrow::NAME` of this folder, a component of the package.
 function(furrow_add_library name)
-  add_library(${name} STATIC ${ARGN})
+  furrow_sources(sources)
+  add_library(${name} STATIC ${sources})
   add_library(furrow::${name} ALIAS ${name})
   set_target_properties(${name} PROPERTIES OUTPUT_NAME furrow_${name} EXPORT_NAME ${name}
                         POSITION_INDEPENDENT_CODE ON)

@@ -43,9 +43,7 @@ void print_page(const CLI::App& app, const ManArguments& a) {
   throw UsageError("there is no subcommand '" + a.command + "'; furrow --help lists them");
 }
 
-}  // namespace
-
-void add_completion(CLI::App& app) {
+void add_completion(CLI::App& app, int&) {
   auto shell = std::make_shared<std::string>();
   CLI::App* sub =
       app.add_subcommand("completion",
@@ -61,7 +59,9 @@ void add_completion(CLI::App& app) {
   });
 }
 
-void add_man(CLI::App& app) {
+const Subcommand completion_subcommand(900, add_completion);
+
+void add_man(CLI::App& app, int&) {
   auto a = std::make_shared<ManArguments>();
   CLI::App* sub = app.add_subcommand("man",
                                      "Print a manual page, as man reads it\n\n"
@@ -72,4 +72,7 @@ void add_man(CLI::App& app) {
   sub->callback([a, &app] { print_page(app, *a); });
 }
 
+const Subcommand man_subcommand(910, add_man);
+
+}  // namespace
 }  // namespace furrow::cli

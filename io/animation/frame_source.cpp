@@ -11,6 +11,7 @@
 #include "geometry/mesh/errors.h"
 #include "io/animation/animation_file.h"
 #include "io/mesh/file_frame.h"
+#include "io/mesh/mesh_formats.h"
 
 namespace furrow::io {
 namespace {
@@ -83,10 +84,10 @@ std::vector<NumberedFile> find_files(const fs::path& pattern) {
 
 std::unique_ptr<FrameSource> open_sequence(const fs::path& pattern, std::size_t vertices,
                                            const FrameSourceOptions& options) {
-  const MeshFormat format = mesh_format(pattern);
-  if (format == MeshFormat::stl || format == MeshFormat::gltf)
-    throw ContentError(pattern.string() +
-                       ": a sequence is of obj, ply or off files, which keep their vertices' order");
+  mesh_format(pattern);
+  if (!find_mesh_ending(pattern)->keeps_order)
+    throw ContentError(pattern.string() + ": a sequence is of " + mesh_formats_in_order() +
+                       " files, which keep their vertices' order");
   std::vector<NumberedFile> files = find_files(pattern);
   std::vector<double> times;
   for (const NumberedFile& file : files)

@@ -464,4 +464,8 @@ std::vector<std::string> write_glb(std::ostream& out, const MeshFile& file, cons
   }
 }
 
+bool is_own_glb(std::string_view head, std::string_view) {
+  return head.starts_with("glTF") && head.find("\"generator\":\"Furrow\"") != head.npos;
+}
+
 }  // namespace furrow::io

@@ -25,10 +25,6 @@ std::vector<NamedPolyline> read_obj_polylines(std::string_view text, const std::
 /// Stanford PLY, ascii and binary of both byte orders, with our own properties (decision 0005). Other
 /// numbers at vertices become vertex attributes.
 MeshFile read_ply(std::string_view text, const std::string& name, const ReadOptions& options);
-/// Geomview OFF, COFF, NOFF, CNOFF, STOFF …, text only.
-MeshFile read_off(std::string_view text, const std::string& name, const ReadOptions& options);
-/// STL, text (solids become groups) and binary. Vertices of exactly equal position are merged.
-MeshFile read_stl(std::string_view text, const std::string& name, const ReadOptions& options);
 /// glTF and GLB by assimp, in a child process with limits: single precision, vertices of equal position in
 /// one node merged; skin weights become vertex attributes. A skinned mesh lies where its skin's bind pose is,
 /// its node's transform does not count. Throws geometry::ContentError too if the child crashes, hangs or

@@ -23,10 +23,6 @@ void write_obj(std::ostream& out, const MeshFile& file, const WriteOptions& opti
 /// vertex attributes (decision 0005). Throws geometry::ContentError for an attribute that is named like
 /// another column of the vertices.
 void write_ply(std::ostream& out, const MeshFile& file, const WriteOptions& options);
-/// OFF, or COFF where the mesh has colours, in double. Everything else is left out.
-void write_off(std::ostream& out, const MeshFile& file, const WriteOptions& options);
-/// Binary STL: single precision, no vertex is shared. Everything but the triangles is left out.
-void write_stl(std::ostream& out, const MeshFile& file, const WriteOptions& options);
 
 /// GLB, glTF 2.0, in single precision: positions, normals, texture coordinates, colours, a primitive a
 /// material. A mesh that was read from a glTF goes back into the nodes that it came from, in the frame of

@@ -24,7 +24,7 @@ class ObjWriter {
       : file_(file), mesh_(file.mesh), options_(options), folder_(folder), numbers_(vertex_numbers(mesh_)) {}
 
   std::string text() {
-    out_ = "# " + std::string(own_mark) + "\n";
+    out_ = own_comment();
     for (const std::string& comment : file_.comments) out_ += "# " + one_line(comment) + "\n";
     for (const std::string& library : file_.material_libraries)
       out_ += "mtllib " + one_line(library_from(library, file_.folder, folder_)) + "\n";
@@ -165,6 +165,11 @@ void write_obj(std::ostream& out, const MeshFile& file, const WriteOptions& opti
                const std::filesystem::path& folder) {
   check_positions(file.mesh, options);
   out << ObjWriter(file, options, folder).text();
+}
+
+/// Of another program's text, which `transfer` keeps, UTF-8's mark stands before it.
+bool is_own_obj(std::string_view head, std::string_view) {
+  return head.starts_with(own_comment()) || head.starts_with("\xEF\xBB\xBF" + own_comment());
 }
 
 }  // namespace furrow::io

@@ -137,6 +137,7 @@ class OffReader {
 
 }  // namespace
 
+/// Geomview OFF, COFF, NOFF, CNOFF, STOFF …, text only.
 MeshFile read_off(std::string_view text, const std::string& name, const ReadOptions& options) {
   OffReader reader(text, name, options);
   reader.read();

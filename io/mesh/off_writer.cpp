@@ -20,6 +20,7 @@ void append_component(std::string& out, double value) {
 
 }  // namespace
 
+/// OFF, or COFF where the mesh has colours, in double. Everything else is left out.
 void write_off(std::ostream& out, const MeshFile& file, const WriteOptions& options) {
   const Mesh& mesh = file.mesh;
   check_positions(mesh, options);
@@ -41,7 +42,11 @@ void write_off(std::ostream& out, const MeshFile& file, const WriteOptions& opti
       text += ' ', append_number(text, numbers[v]);
     text += '\n';
   }
-  out << text << "# " << own_mark << '\n';
+  out << text << own_comment();
+}
+
+bool is_own_off(std::string_view head, std::string_view tail) {
+  return (head.starts_with("OFF\n") || head.starts_with("COFF\n")) && tail.ends_with("\n" + own_comment());
 }
 
 }  // namespace furrow::io

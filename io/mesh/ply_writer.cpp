@@ -282,4 +282,12 @@ void check_state_attributes(const Mesh& mesh) {
   });
 }
 
+/// Earlier versions had comments of other kinds, where they had any.
+bool is_own_ply(std::string_view head, std::string_view) {
+  if (!head.starts_with("ply\nformat binary_little_endian 1.0\n")) return false;
+  const std::string_view header = head.substr(0, head.find("\nend_header\n"));
+  return header.find("\ncomment " + std::string(own_mark) + "\n") != header.npos ||
+         header.find("\ncomment furrow ") != header.npos;
+}
+
 }  // namespace furrow::io

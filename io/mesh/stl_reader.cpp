@@ -136,6 +136,7 @@ class StlReader {
 
 }  // namespace
 
+/// STL, text (solids become groups) and binary. Vertices of exactly equal position are merged.
 MeshFile read_stl(std::string_view text, const std::string& name, const ReadOptions& options) {
   StlReader reader(text, name, options);
   reader.read();

@@ -13,16 +13,19 @@ namespace {
 
 using namespace geometry;
 
+const std::string own_head = "binary STL " + std::string(own_mark);  // must not begin with "solid"
+
 void put(std::string& out, const Vector& v) {
   for (int k = 0; k < 3; ++k) append_in_order(out, static_cast<float>(v[k]), std::endian::little);
 }
 
 }  // namespace
 
+/// Binary STL: single precision, no vertex is shared. Everything but the triangles is left out.
 void write_stl(std::ostream& out, const MeshFile& file, const WriteOptions& options) {
   const Mesh& mesh = file.mesh;
   check_positions(mesh, options);
-  std::string bytes = "binary STL " + std::string(own_mark);  // must not begin with "solid"
+  std::string bytes = own_head;
   bytes.resize(80, ' ');
   append_in_order(bytes, static_cast<std::uint32_t>(mesh.number_of_faces()), std::endian::little);
   for (const Face f : mesh.faces()) {
@@ -38,5 +41,7 @@ void write_stl(std::ostream& out, const MeshFile& file, const WriteOptions& opti
   }
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
 }
+
+bool is_own_stl(std::string_view head, std::string_view) { return head.starts_with(own_head); }
 
 }  // namespace furrow::io

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/base/budget.h"
 
-#include <cstdio>
+#include <fmt/format.h>
+
 #include <ctime>
 #include <stdexcept>
 
@@ -38,13 +39,11 @@ bool Budget::cancelled() {
 }
 
 void Budget::throw_spent() const {
-  char text[160];
-  std::snprintf(
-      text, sizeof text,
-      "%s: its budget of %.4g s of processor time was spent before there was anything to write; give it "
-      "more with `budget`, or refine less",
-      job_.c_str(), seconds_);
-  throw BudgetSpent(text);
+  throw BudgetSpent(
+      fmt::format("{}: its budget of {:.4g} s of processor time was spent before there was anything to "
+                  "write; give it more "
+                  "with `budget`, or refine less",
+                  job_, seconds_));
 }
 
 }  // namespace furrow::jobs

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "bridge/arrays/convert.h"
 #include "geometry/mesh/border_loops.h"
@@ -31,11 +32,7 @@ constexpr double most_filled = 0.35;      // of a figure's box
 constexpr double longest_neck = 0.3;      // of a border that a closed body may have, of the mesh's diagonal
 constexpr double smallest_person = 0.9, largest_person = 2.5, person_volume = 0.012;  // [m], [m^3]
 
-std::string three_digits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
+std::string three_digits(double value) { return fmt::format("{:.3g}", value); }
 
 Eigen::AlignedBox3d box_of(const Mesh& mesh) {
   Eigen::AlignedBox3d box;
@@ -344,9 +341,15 @@ std::string unit_of(double ratio) {
   return unit;
 }
 
-}  // namespace
-
-namespace {
+/// The box with z for y, and with y for z: how it lies if its file has another axis up.
+std::pair<Eigen::AlignedBox3d, Eigen::AlignedBox3d> turned(const Eigen::AlignedBox3d& box) {
+  Eigen::AlignedBox3d forwards, backwards;
+  for (const Eigen::Vector3d& p : {box.min(), box.max()}) {
+    forwards.extend(Eigen::Vector3d(p.x(), p.z(), -p.y()));
+    backwards.extend(Eigen::Vector3d(p.x(), -p.z(), p.y()));
+  }
+  return {forwards, backwards};
+}
 
 /// Boxes that do not meet; and whether they would, if what is y in one file were z in the other.
 void add_apart(const Eigen::AlignedBox3d& garment, const Eigen::AlignedBox3d& body,
@@ -355,11 +358,7 @@ void add_apart(const Eigen::AlignedBox3d& garment, const Eigen::AlignedBox3d& bo
   Ailment a{"body_apart", "", "if they should touch, look at `unit`, `up` and their places"};
   a.text = "body and garment lie apart, their bounding boxes by " +
            three_digits(garment.exteriorDistance(body)) + " m";
-  Eigen::AlignedBox3d forwards, backwards;
-  for (const Eigen::Vector3d& p : {garment.min(), garment.max()}) {
-    forwards.extend(Eigen::Vector3d(p.x(), p.z(), -p.y()));
-    backwards.extend(Eigen::Vector3d(p.x(), -p.z(), p.y()));
-  }
+  const auto [forwards, backwards] = turned(garment);
   const bool far = garment.exteriorDistance(body) > size_of(garment) / 2;
   if (far && (forwards.intersects(body) || backwards.intersects(body)))
     a.text += "; with y and z exchanged they meet: one of the files has z up, so bring both to one axis";
@@ -380,11 +379,7 @@ std::optional<Ailment> lying(const Eigen::AlignedBox3d& garment, const BodyOutli
   const Eigen::Vector3d size = body.box.sizes();
   const double out = beyond(garment, body.box);
   if (size.y() < 1.5 * size.z() || out < far_out * size.y()) return std::nullopt;
-  Eigen::AlignedBox3d forwards, backwards;
-  for (const Eigen::Vector3d& p : {garment.min(), garment.max()}) {
-    forwards.extend(Eigen::Vector3d(p.x(), p.z(), -p.y()));
-    backwards.extend(Eigen::Vector3d(p.x(), -p.z(), p.y()));
-  }
+  const auto [forwards, backwards] = turned(garment);
   const double with_z_up = beyond(forwards, body.box), with_y_up = beyond(backwards, body.box);
   if (std::min(with_z_up, with_y_up) >= agrees * out) return std::nullopt;
   const bool z_up = with_z_up <= with_y_up + alike * size.y();

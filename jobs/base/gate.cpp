@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/base/gate.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "geometry/mesh/degenerate_faces.h"
@@ -15,32 +16,20 @@
 namespace furrow::jobs {
 namespace {
 
-template <class... Args>
-std::string text_of(const char* format, Args... args) {
-  char text[400];
-  std::snprintf(text, sizeof text, format, args...);
-  return text;
-}
-
 /// "40 s", "3 h", "12 days".
 std::string duration_text(double seconds) {
-  if (seconds < 3600) return text_of("%.0f s", seconds);
-  if (seconds < 2 * 86400) return text_of("%.0f h", seconds / 3600);
-  return seconds < 365 * 86400 ? text_of("%.0f days", seconds / 86400)
-                               : text_of("%.2g years", seconds / (365 * 86400));
+  if (seconds < 3600) return fmt::format("{:.0f} s", seconds);
+  if (seconds < 2 * 86400) return fmt::format("{:.0f} h", seconds / 3600);
+  return seconds < 365 * 86400 ? fmt::format("{:.0f} days", seconds / 86400)
+                               : fmt::format("{:.2g} years", seconds / (365 * 86400));
 }
 
 /// Edges of the bounding box [m].
 std::array<double, 3> box_edges(const geometry::Mesh& mesh) {
-  std::array<double, 3> low, high, edges;
-  low.fill(INFINITY), high.fill(-INFINITY);
-  for (geometry::Vertex v : mesh.vertices())
-    for (int k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], mesh.point(v)[k]);
-      high[k] = std::max(high[k], mesh.point(v)[k]);
-    }
-  for (int k = 0; k < 3; ++k) edges[k] = mesh.number_of_vertices() ? high[k] - low[k] : 0;
-  return edges;
+  if (mesh.number_of_vertices() == 0) return {};
+  CGAL::Bbox_3 box;
+  for (geometry::Vertex v : mesh.vertices()) box += mesh.point(v).bbox();
+  return {box.x_span(), box.y_span(), box.z_span()};
 }
 
 /// "m or inch": the units in which a file's mesh of `size` [m] would be as large as what people wear.
@@ -130,29 +119,31 @@ void require_refinement(std::size_t faces, double children, int steps, const std
   const double refined = double(faces) * std::pow(children, steps);
   if (refined <= limits.faces) return;
   constexpr double bytes_a_face = 600;  // measured: a mesh with its rest, while it is refined
-  require_allowed(text_of("`%s=%d`: the mesh would have %.2g faces and take %.2g GB; refine it less",
-                          option.c_str(), steps, refined, 1e-9 * bytes_a_face * refined),
+  require_allowed(fmt::format("`{}={}`: the mesh would have {:.2g} faces and take {:.2g} GB; refine it less",
+                              option, steps, refined, 1e-9 * bytes_a_face * refined),
                   context);
 }
 
 void require_animation(double seconds, double fps, std::size_t vertices, const Context& context) {
   const double frames = seconds * fps, bytes = frames * 12 * double(vertices);
   if (frames <= limits.frames && bytes <= limits.animation_bytes) return;
-  require_allowed(text_of("`fps=%.4g`: the animation would have %.2g frames and take %.2g GB; lower it", fps,
-                          frames, 1e-9 * bytes),
-                  context);
+  require_allowed(
+      fmt::format("`fps={:.4g}`: the animation would have {:.2g} frames and take {:.2g} GB; lower it", fps,
+                  frames, 1e-9 * bytes),
+      context);
 }
 
 void SimulationGate::check(const physics::SimulateProgress& progress) {
   const double steps = (end_ - progress.time) / progress.dt;
   if (allowed_ || !(steps * cost_of_step_ > limits.processor_seconds)) return;
   require_allowed(
-      text_of("%.2g steps of %.2g s are to come, about %s of processor time; %s", steps, progress.dt,
-              duration_text(steps * cost_of_step_).c_str(),
-              step_is_set_ ? "take a longer `dt`, or leave it out"
-                           : "steps are that short where cloth is light for its stiffness (`density`), or "
-                             "faces are next to nothing (`furrow info`: min_angle_deg): mend these, or try "
-                             "`integrator=implicit`"),
+      fmt::format("{:.2g} steps of {:.2g} s are to come, about {} of processor time; {}", steps, progress.dt,
+                  duration_text(steps * cost_of_step_),
+                  step_is_set_
+                      ? "take a longer `dt`, or leave it out"
+                      : "steps are that short where cloth is light for its stiffness (`density`), or "
+                        "faces are next to nothing (`furrow info`: min_angle_deg): mend these, or try "
+                        "`integrator=implicit`"),
       context_);
   allowed_ = true;
 }

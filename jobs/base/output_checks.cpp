@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "geometry/mesh/errors.h"
 #include "io/base/lower_case.h"
+#include "io/mesh/mesh_formats.h"
 #include "jobs/base/own_output.h"
 
 namespace furrow::jobs {
@@ -27,13 +27,11 @@ void check_folder(const std::string& path) {
 
 void check_output(const std::string& path) {
   if (path == "-") return;
-  try {
-    if (io::mesh_format(path) == io::MeshFormat::gltf && io::ending_of(path) == ".gltf")
-      throw std::invalid_argument(path + ": a glTF is written as one file; let its name end in .glb");
-  } catch (const geometry::ContentError&) {
+  const io::MeshEnding* ending = io::find_mesh_ending(path);
+  if (!ending)
     throw std::invalid_argument(path + ": the ending names no format that can be written; choose " +
                                 io::mesh_formats());
-  }
+  if (!ending->write) throw std::invalid_argument(path + ": " + ending->instead);
   check_folder(path);
 }
 

@@ -9,6 +9,7 @@
 
 #include "io/base/nesting.h"
 #include "io/base/own_mark.h"
+#include "io/mesh/mesh_formats.h"
 #include "jobs/base/inputs.h"
 
 namespace furrow::jobs {
@@ -31,26 +32,11 @@ struct Ends {
   bool ends(std::string_view word) const { return tail.ends_with(word); }
 };
 
-const std::string comment = "# " + std::string(io::own_mark) + "\n";
-
-/// Earlier versions had comments of other kinds, where they had any.
-bool is_own_ply(const Ends& file) {
-  if (!file.begins("ply\nformat binary_little_endian 1.0\n")) return false;
-  const std::string_view header = std::string_view(file.head).substr(0, file.head.find("\nend_header\n"));
-  return header.find("\ncomment " + std::string(io::own_mark) + "\n") != header.npos ||
-         header.find("\ncomment furrow ") != header.npos;
+bool is_own_mesh(const Ends& file) {
+  return std::ranges::any_of(io::mesh_endings(), [&](const io::MeshEnding& e) {
+    return e.is_own && e.is_own(file.head, file.tail);
+  });
 }
-
-/// Of another program's text, which `transfer` keeps, UTF-8's mark stands before it.
-bool is_own_obj(const Ends& file) { return file.begins(comment) || file.begins("\xEF\xBB\xBF" + comment); }
-
-bool is_own_off(const Ends& file) {
-  return (file.begins("OFF\n") || file.begins("COFF\n")) && file.ends("\n" + comment);
-}
-
-bool is_own_stl(const Ends& file) { return file.begins("binary STL " + std::string(io::own_mark)); }
-
-bool is_own_glb(const Ends& file) { return file.begins("glTF") && file.has("\"generator\":\"Furrow\""); }
 
 /// PC2 and MDD; the latter has no word at its beginning.
 bool is_own_point_cache(const Ends& file) { return file.ends(io::own_tail); }
@@ -108,8 +94,8 @@ bool is_own_output(const fs::path& path) {
   if (fs::file_size(path, error) == 0 && !error) return true;
   if (error) return false;
   const Ends file = ends_of(path);
-  for (const auto is_own : {is_own_ply, is_own_obj, is_own_off, is_own_stl, is_own_glb, is_own_point_cache,
-                            is_own_png, is_own_json, is_own_chart, is_own_batch, is_own_manual})
+  for (const auto is_own :
+       {is_own_mesh, is_own_point_cache, is_own_png, is_own_json, is_own_chart, is_own_batch, is_own_manual})
     if (is_own(file)) return true;
   return false;
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/body/world_body.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <span>
-#include <sstream>
 #include <thread>
 
 #include "bridge/arrays/convert.h"
@@ -209,12 +209,13 @@ void WorldBody::check_maps(const Context& context) const {
     const auto test = physics::compare_colliders(physics::DepthMapCollider(mesh, six_maps()),
                                                  physics::ExactDistance(mesh), mesh);
     if (!test.disagrees()) continue;
-    std::ostringstream text;
-    text << path_ << ": depth maps of frame " << i << " take " << std::setprecision(2)
-         << 100 * test.false_inside_share() << " % of the points beside the body for inside and "
-         << 100 * test.false_outside_share()
-         << " % of those inside for outside, where no map sees it; collider = \"exact\" is right there";
-    context.warn("body_hides_from_maps", text.str(), path_, "body.collider");
+    context.warn(
+        "body_hides_from_maps",
+        fmt::format("{}: depth maps of frame {} take {:.2g} % of the points beside the body for inside and "
+                    "{:.2g} % of those inside for outside, where no map sees it; collider = \"exact\" is "
+                    "right there",
+                    path_, i, 100 * test.false_inside_share(), 100 * test.false_outside_share()),
+        path_, "body.collider");
     return;
   }
 }

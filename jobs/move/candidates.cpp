@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/move/candidates.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "io/base/number_text.h"
@@ -28,9 +28,7 @@ std::string text_of(double value) {
 /// Three digits, never above: readable as a flag, and still stable.
 double rounded_down_step(double dt) {
   const double unit = std::pow(10, std::floor(std::log10(dt)) - 2);
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", std::floor(dt / unit * (1 + 1e-12)) * unit);
-  return std::strtod(text, nullptr);
+  return std::stod(fmt::format("{:.3g}", std::floor(dt / unit * (1 + 1e-12)) * unit));
 }
 
 /// The limit, or less: a step that is chosen without `dt` is at most dt_max, and halves and quarters are of

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/move/judge.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -177,9 +179,7 @@ class Judge {
 
   static std::string far(double share) {
     if (!std::isfinite(share)) return "more than can be told, as one diverged";
-    char text[32];
-    std::snprintf(text, sizeof text, "%.2g", 100 * share);
-    return Json(std::stod(text)).dump() + " % of the size";
+    return Json(std::stod(fmt::format("{:.2g}", 100 * share))).dump() + " % of the size";
   }
 
   /// Richardson's: halves are d apart, quarters d 2^p, so the finer one is off by d / (2^p - 1); the order p

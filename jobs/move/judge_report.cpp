@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/move/judge_report.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "jobs/base/read_inputs.h"
@@ -10,11 +11,7 @@
 namespace furrow::jobs {
 namespace {
 
-std::string three_digits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
+std::string three_digits(double value) { return fmt::format("{:.3g}", value); }
 std::string percent(double share) { return three_digits(100 * share) + " %"; }
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <sstream>
 
 #include "jobs/base/read_inputs.h"
 #include "jobs/body/world_body.h"
@@ -214,11 +213,10 @@ std::string words_of_divergence(const io::Scene& scene, const physics::SimulateR
         "s "
         "can bear; the garment was not written; take shorter steps: `dt={:.1g}`",
         report.time, report.cut_moves, report.dt, report.dt / 3);
-  std::ostringstream text;
-  text << "the simulation diverged at " << report.time << " s with steps of " << report.dt
-       << " s (stable below " << report.dt_limit << " s); the garment was not written; "
-       << help_of_divergence(scene, report);
-  return text.str();
+  return fmt::format(
+      "the simulation diverged at {:g} s with steps of {:g} s (stable below {:g} s); the garment was not "
+      "written; {}",
+      report.time, report.dt, report.dt_limit, help_of_divergence(scene, report));
 }
 
 }  // namespace furrow::jobs

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "io/mesh/mesh_file.h"
 #include "jobs/base/read_inputs.h"
@@ -23,67 +22,81 @@ std::string finer(const Draped& d) {
 }
 const char* finer_field(const Draped& d) { return d.report.local() ? "finest" : "garment.subdivide"; }
 
-void remark_on_refinement(const Draped& d, std::vector<DrapeRemark>& remarks) {
+/// What is said of one garment, or of a pair: sentences that begin with its name.
+class Remarks {
+ public:
+  Remarks(std::vector<DrapeRemark>& all, const std::string& about, const std::string& head)
+      : all_(all), about_(about), head_(head + ": ") {}
+  Remarks(std::vector<DrapeRemark>& all, const Draped& d) : Remarks(all, d.name, d.name) {}
+
+  /// help: the setting that helps; fails: whether the drape is no success with it.
+  template <class... Args>
+  void add(bool fails, const char* code, const char* help, fmt::format_string<Args...> text, Args&&... args) {
+    all_.push_back({fails, {code, head_ + fmt::format(text, std::forward<Args>(args)...), about_, help}});
+  }
+  template <class... Args>
+  void fault(const char* code, const char* help, fmt::format_string<Args...> text, Args&&... args) {
+    add(true, code, help, text, std::forward<Args>(args)...);
+  }
+  template <class... Args>
+  void note(const char* code, const char* help, fmt::format_string<Args...> text, Args&&... args) {
+    add(false, code, help, text, std::forward<Args>(args)...);
+  }
+
+ private:
+  std::vector<DrapeRemark>& all_;
+  std::string about_, head_;
+};
+
+std::string place_text(const physics::Vec3& at) {
+  return fmt::format("({:.2f}, {:.2f}, {:.2f}) m", at.x(), at.y(), at.z());
+}
+
+void remark_on_refinement(const Draped& d, Remarks& say) {
   if (d.report.ran_out)
-    remarks.push_back({false,
-                       {"vertices_ran_out",
-                        d.name + ": more of it asks to be refined than 20,000 vertices or its coarse faces "
-                                 "allow; what folds most was "
-                                 "refined first; a larger `finest` asks for less",
-                        d.name, "finest"}});
+    say.note(
+        "vertices_ran_out", "finest",
+        "more of it asks to be refined than 20,000 vertices or its coarse faces allow; what folds most was "
+        "refined first; a larger `finest` asks for less");
 }
 
 /// What the body does to the cloth that has come to rest on it.
-void remark_on_contact(const Draped& d, std::vector<DrapeRemark>& remarks) {
+void remark_on_contact(const Draped& d, Remarks& say) {
   const bool pierced = d.end.is_pierced(d.limits);
   if (d.end.is_torn() && !pierced) return;  // no refinement helps
-  const bridge::FitReport& fit = d.fit;
-  const auto faces = fit.piercing.faces;
+  const auto& distance = d.fit.distance;
+  const bool comes_through = d.fit.piercing.faces > 0;
   const std::string through = d.end.body ? words_of_piercing(*d.end.body) : "";
   if (pierced)
-    remarks.push_back(
-        {true,
-         {"pierced",
-          d.name + ": " +
-              (faces ? through
-                     : "lies inside the body, by up to " +
-                           geometry::length_text(fit.distance.deepest_penetration)) +
-              (d.placed ? "; it is too small there, or the body leaves cloth no room; refine it with "
-                        : "; look at where the garment lies before it is draped (and at `unit`), refine it "
-                          "with ") +
-              finer(d) + ", or accept it with `penetration`",
-          d.name, finer_field(d)}});
-  else if (faces)
-    remarks.push_back(
-        {false,
-         {"body_comes_through",
-          d.name + ": " + through + "; with " + finer(d) + " the cloth follows the body more closely", d.name,
-          finer_field(d)}});
+    say.fault("pierced", finer_field(d), "{}; {}{}, or accept it with `penetration`",
+              comes_through
+                  ? through
+                  : "lies inside the body, by up to " + geometry::length_text(distance.deepest_penetration),
+              d.placed
+                  ? "it is too small there, or the body leaves cloth no room; refine it with "
+                  : "look at where the garment lies before it is draped (and at `unit`), refine it with ",
+              finer(d));
+  else if (comes_through)
+    say.note("body_comes_through", finer_field(d), "{}; with {} the cloth follows the body more closely",
+             through, finer(d));
   if (d.too_near)
-    remarks.push_back(
-        {false,
-         {"gap_not_kept",
-          d.name + ": " + std::to_string(d.too_near) + (d.too_near == 1 ? " vertex is" : " vertices are") +
-              " nearer to the body than the gap of " + geometry::length_text(d.gap) + ", down to " +
-              geometry::length_text(fit.distance.min) +
-              "; the cloth is too tight for it there, or the body leaves no room: a smaller `gap` may do",
-          d.name, "gap"}});
+    say.note("gap_not_kept", "gap",
+             "{} {} nearer to the body than the gap of {}, down to {}; the cloth is too tight for it there, "
+             "or the body leaves no room: a smaller `gap` may do",
+             d.too_near, d.too_near == 1 ? "vertex is" : "vertices are", geometry::length_text(d.gap),
+             geometry::length_text(distance.min));
 }
 
 /// A garment that lay well inside the body as it was given.
-void remark_on_start(const Draped& d, std::vector<DrapeRemark>& remarks) {
+void remark_on_start(const Draped& d, Remarks& say) {
   constexpr double deep = 0.025;  // [m]; what was made for a body lies a few millimetres inside it
   const physics::PushOutReport& pushed = d.report.levels.front().pushed;
   if (d.placed || !d.fit.on_body || !(pushed.farthest > d.gap + deep)) return;
-  remarks.push_back(
-      {false,
-       {"starts_inside",
-        fmt::format(
-            "{}: lies up to {} inside the body as it is given ({} of {} vertices were brought out): if "
-            "it was made for another body, name that one with `made_for`, and it is brought here",
-            d.name, geometry::length_text(pushed.farthest - d.gap), pushed.moved,
-            d.report.levels.front().vertices),
-        d.name, "made_for"}});
+  say.note(
+      "starts_inside", "made_for",
+      "lies up to {} inside the body as it is given ({} of {} vertices were brought out): if it was made "
+      "for another body, name that one with `made_for`, and it is brought here",
+      geometry::length_text(pushed.farthest - d.gap), pushed.moved, d.report.levels.front().vertices);
 }
 
 /// What could not be taken apart, and where most of it is.
@@ -92,9 +105,9 @@ std::string words_of_tangle(const physics::ContourReport& untangled) {
   for (const physics::CrossingLine& l : untangled.lines) length += l.length;
   const physics::CrossingLine& most = untangled.lines.front();
   return fmt::format(
-      "it crosses itself as it is given, along {:.0f} mm that could not be taken apart, most "
-      "({:.0f} mm) at ({:.2f}, {:.2f}, {:.2f}) m",
-      1000 * length, 1000 * most.length, most.middle.x(), most.middle.y(), most.middle.z());
+      "it crosses itself as it is given, along {:.0f} mm that could not be taken apart, most ({:.0f} mm) at "
+      "{}",
+      1000 * length, 1000 * most.length, place_text(most.middle));
 }
 
 /// Whether most of what crosses is of two parts of a garment.
@@ -107,63 +120,45 @@ bool crosses_between_parts(const ClothCrossings& c) {
 
 /// What a user can do about cloth that crosses itself.
 std::string remedy_of_crossings(const Draped& d) {
-  const std::string apart = crosses_between_parts(d.crossings)
-                                ? "; these are separate pieces: give each as a file of its own, the inner "
-                                  "one first (`furrow drape` "
-                                  "inner.obj outer.obj)"
-                                : "";
-  if (!d.untangled.lines.empty()) return words_of_tangle(d.untangled) + ": part its layers there" + apart;
+  if (!d.untangled.lines.empty()) return words_of_tangle(d.untangled) + ": part its layers there";
   if (d.other && d.other->self_contact)
-    return "with contact of cloth with cloth no better rest was found: part its layers, or give it room" +
-           apart;
+    return "with contact of cloth with cloth no better rest was found: part its layers, or give it room";
   if (d.crossings.pairs <= d.crossings.from_start)
-    return "it crosses itself as it is given: part its layers before it is draped, or try `self_contact=on`" +
-           apart;
+    return "it crosses itself as it is given: part its layers before it is draped, or try `self_contact=on`";
   if (d.self_contact)
-    return "cloth is not held apart where it crosses itself as it is given: part its layers there" + apart;
-  return "`self_contact=on` keeps cloth off cloth" + apart;
+    return "cloth is not held apart where it crosses itself as it is given: part its layers there";
+  return "`self_contact=on` keeps cloth off cloth";
 }
 
-void remark_on_crossings(const Draped& d, std::vector<DrapeRemark>& remarks) {
+void remark_on_crossings(const Draped& d, Remarks& say) {
   if (!d.crossings.pairs) return;
-  const std::string accept =
-      d.crosses_itself() ? "; accept them with `allow_crossings=" + std::to_string(d.crossings.pairs) + "`"
-                         : "";
-  remarks.push_back(
-      {d.crosses_itself(),
-       {"cloth_crosses", d.name + ": " + words(d.crossings) + "; " + remedy_of_crossings(d) + accept, d.name,
-        "garment.allow_crossings"}});
+  say.add(
+      d.crosses_itself(), "cloth_crosses", "garment.allow_crossings", "{}; {}{}{}", words(d.crossings),
+      remedy_of_crossings(d),
+      crosses_between_parts(d.crossings) ? "; these are separate pieces: give each as a file of its own, the "
+                                           "inner one first (`furrow drape` "
+                                           "inner.obj outer.obj)"
+                                         : "",
+      d.crosses_itself() ? fmt::format("; accept them with `allow_crossings={}`", d.crossings.pairs) : "");
 }
 
-/// With contact of cloth with cloth it led to no success, and this is what it came to without.
-void remark_on_way_back(const Draped& d, std::vector<DrapeRemark>& remarks) {
-  if (!d.other || !d.other->self_contact) return;
+/// Whether it was draped with contact of cloth with cloth is the better of two ends; this is the other one.
+void remark_on_other_way(const Draped& d, Remarks& say) {
+  if (!d.other) return;
   const DrapeOther& other = *d.other;
-  const std::string where = other.blocked_at
-                                ? fmt::format(" at ({:.2f}, {:.2f}, {:.2f}) m", other.blocked_at->x(),
-                                              other.blocked_at->y(), other.blocked_at->z())
-                                : "";
-  remarks.push_back(
-      {false,
-       {"contact_left_out",
-        fmt::format(
-            "{}: draped without contact of cloth with cloth, as its end with it is no better: {}{} after {} "
-            "iterations, residual force {:.2g}, {} pairs of faces crossing; `self_contact=on` writes "
-            "that, off does not look for it",
-            d.name, other.outcome, where, other.iterations, other.residual, other.crossings),
-        d.name, "self_contact"}});
-}
-
-/// With contact it is no success either, and still the better end.
-void remark_on_way_kept(const Draped& d, std::vector<DrapeRemark>& remarks) {
-  if (!d.other || d.other->self_contact) return;
-  remarks.push_back(
-      {false,
-       {"contact_kept",
-        fmt::format("{}: draped with contact of cloth with cloth, as its end without it is worse: {}, {} "
-                    "pairs of faces crossing; `self_contact=off` writes that",
-                    d.name, d.other->outcome, d.other->crossings),
-        d.name, "self_contact"}});
+  if (other.self_contact)
+    say.note(
+        "contact_left_out", "self_contact",
+        "draped without contact of cloth with cloth, as its end with it is no better: {}{} after {} "
+        "iterations, residual force {:.2g}, {} pairs of faces crossing; `self_contact=on` writes that, off "
+        "does not look for it",
+        other.outcome, other.blocked_at ? " at " + place_text(*other.blocked_at) : "", other.iterations,
+        other.residual, other.crossings);
+  else
+    say.note("contact_kept", "self_contact",
+             "draped with contact of cloth with cloth, as its end without it is worse: {}, {} pairs of faces "
+             "crossing; `self_contact=off` writes that",
+             other.outcome, other.crossings);
 }
 
 /// Lines that lost their height, or have no vertex left to measure it by.
@@ -175,17 +170,15 @@ void remark_on_lines(const Draped& d, std::vector<DrapeRemark>& remarks) {
     if (std::none_of(d.lines.begin(), d.lines.end(), [&](const LineReport& line) { return line.id == id; }))
       gone += (gone.empty() ? "'" : ", '") + record->lines[id].name + "'";
   if (!gone.empty())
-    remarks.push_back({false,
-                       {"lines_merged",
-                        d.name +
-                            ": whether these lines stand cannot be measured, as later lines run along them "
-                            "and took their vertices: " +
-                            gone,
-                        d.name, ""}});
+    Remarks(remarks, d)
+        .note("lines_merged", "",
+              "whether these lines stand cannot be measured, as later lines run along them and took their "
+              "vertices: {}",
+              gone);
 }
 
 /// Cloth that no cloth survives: the fabric's law says nothing true of it any more.
-void remark_on_strain(const Draped& d, std::vector<DrapeRemark>& remarks) {
+void remark_on_strain(const Draped& d, Remarks& say) {
   if (!d.end.is_torn()) return;
   const bridge::FitStrain& strain = *d.fit.strain;
   std::string where;
@@ -193,15 +186,12 @@ void remark_on_strain(const Draped& d, std::vector<DrapeRemark>& remarks) {
     const bridge::FitZone& zone = d.fit.tight.front();
     where = fmt::format(", most at {:.0f} % of the body's height, {}", 100 * zone.height_share, zone.side);
   }
-  remarks.push_back(
-      {true,
-       {"torn",
-        d.name +
-            fmt::format(": torn: {:.0f} % of the cloth is strained by more than {:.0f} %, up to {:.0f} %{}; "
-                        "the garment is too small for this body{}",
-                        100 * strain.share_over, 100 * d.fit_options.tight_strain, 100 * strain.max, where,
-                        d.placed ? "" : ", or lies inside it: look at `unit`, and at where it lies"),
-        d.name, "unit"}});
+  say.fault(
+      "torn", "unit",
+      "torn: {:.0f} % of the cloth is strained by more than {:.0f} %, up to {:.0f} %{}; the garment is too "
+      "small for this body{}",
+      100 * strain.share_over, 100 * d.fit_options.tight_strain, 100 * strain.max, where,
+      d.placed ? "" : ", or lies inside it: look at `unit`, and at where it lies");
 }
 
 const char* word_of(LooseUse use) {
@@ -214,66 +204,50 @@ std::string words_of_loose(const LooseParts& loose) {
                      loose.vertices, 100 * loose.area_share);
 }
 
-void remark_on_loose_parts(const Draped& d, std::vector<DrapeRemark>& remarks) {
+void remark_on_loose_parts(const Draped& d, Remarks& say) {
   if (d.loose.empty()) return;
   std::string names;
   for (std::size_t i = 0; i < std::min<std::size_t>(d.loose.size(), 5); ++i)
     names += (i ? ", " : "") + d.loose[i];
   if (d.loose.size() > 5) names += fmt::format(" and {} more", d.loose.size() - 5);
-  const std::string cut = d.file.repairs.duplicated_vertices
-                              ? fmt::format(
-                                    "; its file has edges or vertices that more than two faces share, "
-                                    "where it was cut open ({} vertices doubled)",
-                                    d.file.repairs.duplicated_vertices)
-                              : "";
-  remarks.push_back(
-      {d.falls_apart(),
-       {"loose_parts",
-        d.name +
-            fmt::format(": nothing holds {} of its {} parts: {}; {}{}{}", d.loose.size(), d.end.parts.size(),
-                        names, words_of_loose(d.loose_parts), cut,
-                        d.loose_parts.use == LooseUse::drop
-                            ? ""
-                            : "; join them to the garment in its file, pin them (`pin_group`, `pin_box`), or "
-                              "take them out (`loose=drop`)"),
-        d.name, "pins"}});
+  const std::size_t doubled = d.file.repairs.duplicated_vertices;
+  say.add(d.falls_apart(), "loose_parts", "pins", "nothing holds {} of its {} parts: {}; {}{}{}",
+          d.loose.size(), d.end.parts.size(), names, words_of_loose(d.loose_parts),
+          doubled ? fmt::format(
+                        "; its file has edges or vertices that more than two faces share, where it was cut "
+                        "open ({} vertices doubled)",
+                        doubled)
+                  : "",
+          d.loose_parts.use == LooseUse::drop
+              ? ""
+              : "; join them to the garment in its file, pin them (`pin_group`, `pin_box`), or take them out "
+                "(`loose=drop`)");
 }
 
 /// Why a garment that nothing carries does not rest.
-void remark_on_nothing_carried(const Draped& d, const physics::SettleReport& last,
-                               std::vector<DrapeRemark>& remarks) {
-  if (!d.end.finite) {
-    remarks.push_back(
-        {true,
-         {"numerical_failure",
-          d.name +
-              fmt::format(": numerical failure: the forces cannot be computed (residual force {:.2g} of a "
-                          "vertex's weight); look at `stretch`, `rigidity`, `density` and `gravity`, one "
-                          "of which is far beyond any cloth's",
-                          last.residual),
-          d.name, "material"}});
-    return;
-  }
-  remarks.push_back({false,
-                     {"touches_nothing",
-                      d.name + ": never came to lie on the body, which is " +
-                          geometry::length_text(d.fit.body_high - d.fit.body_low) +
-                          " tall; look at where the two are, and at `unit`, which is that of both files",
-                      d.name, "unit"}});
+void remark_on_nothing_carried(const Draped& d, const physics::SettleReport& last, Remarks& say) {
+  if (!d.end.finite)
+    return say.fault(
+        "numerical_failure", "material",
+        "numerical failure: the forces cannot be computed (residual force {:.2g} of a vertex's "
+        "weight); look at `stretch`, `rigidity`, `density` and `gravity`, one of which is far beyond "
+        "any cloth's",
+        last.residual);
+  say.note(
+      "touches_nothing", "unit",
+      "never came to lie on the body, which is {} tall; look at where the two are, and at `unit`, which is "
+      "that of both files",
+      geometry::length_text(d.fit.body_high - d.fit.body_low));
 }
 
 /// Cloth that cloth leaves no step.
-void remark_on_block(const Draped& d, const physics::SettleReport& last, std::vector<DrapeRemark>& remarks) {
-  const physics::Vec3& at = last.self.blocked_at;
-  remarks.push_back(
-      {true,
-       {"blocked",
-        fmt::format(
-            "{}: blocked at ({:.2f}, {:.2f}, {:.2f}) m after {} iterations, residual force {:.2g} of a "
-            "vertex's weight: cloth lies so close to cloth there that no step is left; give it room "
-            "where it begins, hold more of it, or make the cloth thinner with `cloth_thickness`",
-            d.name, at.x(), at.y(), at.z(), last.iterations, last.residual),
-        d.name, "self_contact"}});
+void remark_on_block(const physics::SettleReport& last, Remarks& say) {
+  say.fault(
+      "blocked", "self_contact",
+      "blocked at {} after {} iterations, residual force {:.2g} of a vertex's weight: cloth lies so close "
+      "to cloth there that no step is left; give it room where it begins, hold more of it, or make the "
+      "cloth thinner with `cloth_thickness`",
+      place_text(last.self.blocked_at), last.iterations, last.residual);
 }
 
 /// Whether a part came to lie on something, far below where it was worn.
@@ -282,49 +256,39 @@ bool came_lower(const Draped& d) {
   return d.end.finite && d.end.lost() > 0 && d.end.fallen() > 0 && carried;
 }
 
-void remark_on_lost_parts(const Draped& d, std::vector<DrapeRemark>& remarks) {
+void remark_on_lost_parts(const Draped& d, Remarks& say) {
   if (!came_lower(d)) return;
   std::string names;
   for (const PartEnd& part : d.end.parts)
     if (part.lost) names += (names.empty() ? "" : ", ") + part.name;
   const bool whole = d.end.falls();
-  remarks.push_back(
-      {true,
-       {"fallen",
-        fmt::format(
-            "{}: {}fell {} from where it lay before anything stopped it: the body does not carry it "
-            "where it is worn{}; look for skin that the body lacks there (holes in it are filled), put "
-            "the garment where it is worn, or hold it with a pin or a band",
-            d.name, whole ? "" : names + " ", geometry::length_text(d.end.fallen()),
-            whole ? "" : ", nor does the rest of the garment"),
-        d.name, "pins"}});
+  say.fault(
+      "fallen", "pins",
+      "{}fell {} from where it lay before anything stopped it: the body does not carry it where it is "
+      "worn{}; look for skin that the body lacks there (holes in it are filled), put the garment where it "
+      "is worn, or hold it with a pin or a band",
+      whole ? "" : names + " ", geometry::length_text(d.end.fallen()),
+      whole ? "" : ", nor does the rest of the garment");
 }
 
-void remark_on_unrest(const Draped& d, std::vector<DrapeRemark>& remarks) {
+void remark_on_unrest(const Draped& d, Remarks& say) {
   const physics::SettleReport& last = d.report.levels.back().settle;
-  if (!d.end.finite || (last.touching == 0 && d.fit.on_body)) remark_on_nothing_carried(d, last, remarks);
-  if (!d.end.finite) return;
-  if (d.end.falls() && came_lower(d)) return;  // told of as fallen
-  if (d.end.falls()) {
-    remarks.push_back(
-        {true,
-         {"falls",
-          d.name + ": falls, as neither the body nor a pin carries it; put it where it is to be worn", d.name,
-          "pins"}});
-    return;
-  }
-  if (last.self.blocked) return remark_on_block(d, last, remarks);
-  std::ostringstream text;
-  text << d.name << ": not at rest after " << last.iterations << " iterations, residual force "
-       << last.residual << " of a vertex's weight, cloth " << geometry::length_text(last.deepest)
-       << " deep in the gap";
-  if (last.stuck)
-    text << ", and no step leads on: draw or lay it otherwise, or try `starts=4`";
-  else if (last.self.cut_moves.value_or(0) > 0)
-    text << ", " << *last.self.cut_moves << " moves of vertices cut, as cloth was in their way";
-  if (!last.stuck && !d.end.is_torn())
-    text << "; give more with `max_iterations`, or accept it with `residual`";
-  remarks.push_back({true, {"not_at_rest", text.str(), d.name, "iterations"}});
+  if (!d.end.finite || (last.touching == 0 && d.fit.on_body)) remark_on_nothing_carried(d, last, say);
+  if (!d.end.finite || (d.end.falls() && came_lower(d))) return;  // told of as fallen
+  if (d.end.falls())
+    return say.fault("falls", "pins",
+                     "falls, as neither the body nor a pin carries it; put it where it is to be worn");
+  if (last.self.blocked) return remark_on_block(last, say);
+  const long long cut = last.self.cut_moves.value_or(0);
+  say.fault(
+      "not_at_rest", "iterations",
+      "not at rest after {} iterations, residual force {:g} of a vertex's weight, cloth {} deep in the "
+      "gap{}{}",
+      last.iterations, last.residual, geometry::length_text(last.deepest),
+      last.stuck ? ", and no step leads on: draw or lay it otherwise, or try `starts=4`"
+      : cut > 0  ? fmt::format(", {} moves of vertices cut, as cloth was in their way", cut)
+                 : "",
+      last.stuck || d.end.is_torn() ? "" : "; give more with `max_iterations`, or accept it with `residual`");
 }
 
 Json level_json(const bridge::DrapeLevel& level) {
@@ -388,33 +352,27 @@ Json untangled_json(const physics::ContourReport& u) {
   return json;
 }
 
-void remark_on_crossed_layers(const LayerPair& p, std::size_t allowed, std::vector<DrapeRemark>& remarks) {
+void remark_on_crossed_layers(const LayerPair& p, std::size_t allowed, Remarks& say) {
   if (!p.crossings) return;
+  const char* plural = p.crossings == 1 ? "" : "s";
   if (!p.touch)
-    return remarks.push_back(
-        {false,
-         {"layers_apart",
-          fmt::format("{} over {}: {} pair{} of faces cross, as one of them touches no other garment "
-                      "(touch = false)",
-                      p.outer, p.inner, p.crossings, p.crossings == 1 ? "" : "s"),
-          p.outer, "garment.touch"}});
+    return say.note("layers_apart", "garment.touch",
+                    "{} pair{} of faces cross, as one of them touches no other garment (touch = false)",
+                    p.crossings, plural);
   const bool fails = p.crossings > allowed;
   std::string where;
   if (!p.places.empty()) {
     const geometry::Point& at = p.places.front().centre;
-    where = fmt::format(", most ({}) within {:.1f} cm of ({:.2f}, {:.2f}, {:.2f}) m", p.places.front().pairs,
-                        50 * p.places.front().extent, at.x(), at.y(), at.z());
+    where = fmt::format(", most ({}) within {:.1f} cm of {}", p.places.front().pairs,
+                        50 * p.places.front().extent, place_text({at.x(), at.y(), at.z()}));
   }
-  remarks.push_back(
-      {fails,
-       {"layers_cross",
-        fmt::format("{} over {}: {} pair{} of faces cross{}; {}{}", p.outer, p.inner, p.crossings,
-                    p.crossings == 1 ? "" : "s", where,
-                    p.began_inside() ? "the outer one lies inside as it is given: name it before the other"
-                                     : "they were not taken apart there: part them where they are given, or "
-                                       "give the outer one room",
-                    fails ? fmt::format("; accept them with `allow_crossings={}`", p.crossings) : ""),
-        p.outer, "garment.allow_crossings"}});
+  say.add(fails, "layers_cross", "garment.allow_crossings", "{} pair{} of faces cross{}; {}{}", p.crossings,
+          plural, where,
+          p.began_inside()
+              ? "the outer one lies inside as it is given: name it before the other"
+              : "they were not taken apart there: part them where they are given, or give the outer "
+                "one room",
+          fails ? fmt::format("; accept them with `allow_crossings={}`", p.crossings) : "");
 }
 
 Json layer_pair_json(const LayerPair& p) {
@@ -457,30 +415,26 @@ Json to_json(const DrapedLayers& layers) {
 std::vector<DrapeRemark> remarks_on(const DrapedLayers& layers, std::size_t allowed) {
   std::vector<DrapeRemark> remarks;
   for (const LayerPair& p : layers.pairs) {
-    remark_on_crossed_layers(p, allowed, remarks);
+    Remarks say(remarks, p.outer, p.outer + " over " + p.inner);
+    remark_on_crossed_layers(p, allowed, say);
     if (!p.touch) continue;
     if (p.crossings == 0 && p.began_inside())
-      remarks.push_back(
-          {false,
-           {"layer_order",
-            fmt::format("{} over {}: {} of {} vertices near it lay inside as they were given; if it is worn "
-                        "under the other, name it first",
-                        p.outer, p.inner, p.compared_at_start - p.outside_at_start, p.compared_at_start),
-            p.outer, ""}});
+      say.note(
+          "layer_order", "",
+          "{} of {} vertices near it lay inside as they were given; if it is worn under the other, name it "
+          "first",
+          p.compared_at_start - p.outside_at_start, p.compared_at_start);
     if (2 * p.outside < p.compared)
-      remarks.push_back({true,
-                         {"layer_under",
-                          fmt::format("{} over {}: {} of {} vertices near it lie inside; name the garments "
-                                      "from the inside to the outside",
-                                      p.outer, p.inner, p.compared - p.outside, p.compared),
-                          p.outer, ""}});
+      say.fault("layer_under", "",
+                "{} of {} vertices near it lie inside; name the garments from the inside to the outside",
+                p.compared - p.outside, p.compared);
   }
   for (const std::string& name : layers.turned)
-    remarks.push_back({false,
-                       {"turned",
-                        name + ": its faces look into the body, as if it were turned inside out; the side "
-                               "away from the body counts as its outer one",
-                        name, ""}});
+    Remarks(remarks, name, name)
+        .note("turned", "",
+              "its faces look into the body, as if it were turned inside out; the side away from the body "
+              "counts "
+              "as its outer one");
   return remarks;
 }
 
@@ -488,16 +442,12 @@ std::vector<DrapeRemark> remarks_on(std::span<const Draped> garments) {
   std::vector<DrapeRemark> remarks;
   for (const Draped& d : garments) {
     if (d.report.stopped) break;
-    remark_on_start(d, remarks);
-    remark_on_strain(d, remarks);
-    remark_on_contact(d, remarks);
-    remark_on_refinement(d, remarks);
-    remark_on_loose_parts(d, remarks);
-    remark_on_lost_parts(d, remarks);
-    remark_on_crossings(d, remarks);
-    remark_on_way_back(d, remarks);
-    remark_on_way_kept(d, remarks);
-    if (!d.rests()) remark_on_unrest(d, remarks);
+    Remarks say(remarks, d);
+    for (const auto remark_on :
+         {remark_on_start, remark_on_strain, remark_on_contact, remark_on_refinement, remark_on_loose_parts,
+          remark_on_lost_parts, remark_on_crossings, remark_on_other_way})
+      remark_on(d, say);
+    if (!d.rests()) remark_on_unrest(d, say);
     for (const Warning& doubt : doubts_of(d)) remarks.push_back({false, doubt});
     if (d.end.finite) remark_on_lines(d, remarks);
   }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/rest/fit_picture.h"
 
-#include <cmath>
-#include <cstdio>
+#include <fmt/format.h>
 
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/vertex_attributes.h"
@@ -14,12 +13,6 @@ namespace furrow::jobs {
 namespace {
 
 constexpr io::Colour figure_colour{0.56f, 0.56f, 0.57f};  // no colour of either scale
-
-std::string format(const char* pattern, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, pattern, value);
-  return text;
-}
 
 io::RenderScene scene_of(const FitPanel& panel) {
   io::RenderScene scene;
@@ -41,19 +34,19 @@ io::RenderScene scene_of(const FitPanel& panel) {
 std::string fit_words(const bridge::FitReport& report, const bridge::FitOptions& options, FitColour colour) {
   std::string words;
   if (colour == FitColour::strain && report.strain)
-    words = format("%.1f %% of the cloth strained over ", 100 * report.strain->share_over) +
-            format("%.3g %%", 100 * options.tight_strain);
+    words = fmt::format("{:.1f} % of the cloth strained over {:.3g} %", 100 * report.strain->share_over,
+                        100 * options.tight_strain);
   else
-    words = format("half of the cloth nearer than %.0f mm", 1000 * report.distance.median);
+    words = fmt::format("half of the cloth nearer than {:.0f} mm", 1000 * report.distance.median);
   if (report.piercing.faces)
-    words += "; the body comes through " + std::to_string(report.piercing.faces) +
-             (report.piercing.faces == 1 ? " face" : " faces") +
-             format(" by %.1f mm", 1000 * report.distance.deepest_penetration);
+    words += fmt::format("; the body comes through {} face{} by {:.1f} mm", report.piercing.faces,
+                         report.piercing.faces == 1 ? "" : "s", 1000 * report.distance.deepest_penetration);
   std::string rooms;
   for (const bridge::FitEase& e : report.ease)
     if (e.ease)
-      rooms += (rooms.empty() ? "ease: " : ", ") + e.name + format(" %+.1f cm", 100 * *e.ease) +
-               (e.rest_ease && *e.rest_ease < 0 ? format(" (unstretched %+.1f)", 100 * *e.rest_ease) : "");
+      rooms +=
+          (rooms.empty() ? "ease: " : ", ") + e.name + fmt::format(" {:+.1f} cm", 100 * *e.ease) +
+          (e.rest_ease && *e.rest_ease < 0 ? fmt::format(" (unstretched {:+.1f})", 100 * *e.rest_ease) : "");
   return rooms.empty() ? words : words + "\n" + rooms;
 }
 

@@ -3,10 +3,12 @@
 #include <catch2/catch.hpp>
 #include <regex>
 
+#include "io/mesh/mesh_file.h"
 #include "run_furrow.h"
 #include "tests/test_paths.h"
 
 using namespace furrow::tests;
+namespace io = furrow::io;
 
 namespace {
 
@@ -14,7 +16,7 @@ struct Mistake {
   const char* what;
   const char* call;  ///< {m}: the folder of our meshes; {d}: that of the test's own files
   int exit_code;
-  const char* first_line;
+  const char* first_line;  ///< {formats}: those read and those written; {written}: the latter
 };
 
 const Mistake mistakes[] = {
@@ -32,7 +34,7 @@ const Mistake mistakes[] = {
     {"strokes forgotten", "wrinkle {m}/sheet.obj -o {d}/o.ply", 2,
      "error: {m}/sheet.obj holds no strokes to draw again: name a file of strokes"},
     {"an output without an ending", "smooth {m}/sheet.obj -o {d}/out", 2,
-     "error: {d}/out: the ending names no format that can be written; choose obj, ply, off, stl or glb"},
+     "error: {d}/out: the ending names no format that can be written; choose {written}"},
     {"an output in a format that is only read", "smooth {m}/sheet.obj -o {d}/o.gltf", 2,
      "error: {d}/o.gltf: a glTF is written as one file; let its name end in .glb"},
     {"an output in a folder that is not there", "smooth {m}/sheet.obj -o {d}/no/o.ply", 1,
@@ -44,8 +46,7 @@ const Mistake mistakes[] = {
     {"a mesh that is not there", "info {d}/shrit.obj", 3,
      "error: {d}/shrit.obj: cannot be opened: No such file or directory"},
     {"a mesh in a format that is not read", "info {d}/mesh.blend", 3,
-     "error: {d}/mesh.blend: unknown format '.blend'; obj, ply, off, stl, gltf and glb are read, obj, ply, "
-     "off, stl and glb written; export it as GLB or OBJ"},
+     "error: {d}/mesh.blend: unknown format '.blend'; {formats}; export it as GLB or OBJ"},
     {"a folder in place of a mesh", "info {d}", 3, "error: {d}: is a folder; name a mesh in it"},
     {"an empty mesh", "info {d}/empty.obj", 3,
      "error: {d}/empty.obj: no faces; a mesh with at least one triangle is needed"},
@@ -117,8 +118,7 @@ const Mistake mistakes[] = {
      "error: action: 'cottn' is none of list, show, drape, fit; did you mean furrow fabric show cotton?; "
      "furrow fabric --help tells more"},
     {"another program's file", "drape {d}/a.fbx --body {m}/mannequin.obj -o {d}/o.ply", 3,
-     "error: {d}/a.fbx: unknown format '.fbx'; obj, ply, off, stl, gltf and glb are read, obj, ply, off, stl "
-     "and glb written; export it as GLB or OBJ"},
+     "error: {d}/a.fbx: unknown format '.fbx'; {formats}; export it as GLB or OBJ"},
     {"a file that Git LFS did not bring", "info {d}/pointer.obj", 3,
      "error: {d}/pointer.obj: is a pointer of Git LFS, not the file itself; git lfs pull brings that"},
     {"an integrator misspelt", "simulate {m}/sheet.obj --integrator leapfrogg -o {d}/o.ply", 2,
@@ -222,7 +222,11 @@ TEST_CASE("mistakes: each ends with its exit code and a sentence that helps", "[
   for (const Mistake& mistake : mistakes) {
     INFO(mistake.what << ": furrow " << mistake.call);
     const Run run = run_furrow(replaced(replaced(mistake.call, "{m}", m), "{d}", d.path().string()));
-    const std::string told = replaced(replaced(run.err, m, "{m}"), d.path().string(), "{d}");
+    std::string told = replaced(replaced(run.err, m, "{m}"), d.path().string(), "{d}");
+    told = replaced(
+        told, io::mesh_formats(true, " and ") + " are read, " + io::mesh_formats(false, " and ") + " written",
+        "{formats}");
+    told = replaced(told, "choose " + io::mesh_formats(false, " or "), "choose {written}");
     CHECK(run.exit_code == mistake.exit_code);
     CHECK(told.substr(0, told.find('\n')) == mistake.first_line);
     CHECK(run.out.empty());

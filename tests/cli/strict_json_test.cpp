@@ -6,37 +6,10 @@
 #include <regex>
 #include <sstream>
 
-#include "json_schema.h"
-#include "run_furrow.h"
+#include "run_json.h"
 
 using namespace furrow::tests;
 using nlohmann::json;
-
-namespace {
-
-const json& schema() {
-  static const json all = parse_strictly(read_text(source_file("jobs/report.schema.json")));
-  return all;
-}
-
-std::string faults_of(const json& report, const std::string& command) {
-  std::string text;
-  for (const std::string& fault : schema_faults(report, schema()["$defs"][command], schema()))
-    text += fault + "\n";
-  return text;
-}
-
-/// What a run printed, which must end with this exit code; throws for what is no JSON.
-json report_of(const std::string& arguments, int exit_code = 0) {
-  const Run run = run_furrow(arguments + " --json");
-  INFO(arguments << "\n" << run.err << run.out);
-  REQUIRE(run.exit_code == exit_code);
-  const json report = parse_strictly(run.out);
-  CHECK(faults_of(report, arguments.substr(0, arguments.find(' '))) == "");
-  return report;
-}
-
-}  // namespace
 
 TEST_CASE("strict JSON: every command's report is read, and is as its schema says", "[long]") {
   ScratchDirectory scratch;

@@ -8,21 +8,26 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/mesh.h"
 #include "io/animation/animation_file.h"
 #include "io/base/camera_file.h"
-#include "io/mesh/mesh_file.h"
+#include "io/mesh/mesh_formats.h"
 #include "io/scene/scene_file.h"
 #include "io/scene/state_file.h"
 #include "io/stroke/stroke_file.h"
 
 namespace furrow::fuzz {
 
-/// Of tests/fuzz/corpus, a folder each.
-constexpr std::string_view formats[] = {"obj", "off",    "ply",     "stl",   "pc2",
-                                        "mdd", "camera", "strokes", "scene", "state"};
+/// Of tests/fuzz/corpus, a folder each: the formats of meshes that are read from a text, and the rest.
+inline std::vector<std::string> formats() {
+  std::vector<std::string> names{"pc2", "mdd", "camera", "strokes", "scene", "state"};
+  for (const io::MeshEnding& e : io::mesh_endings())
+    if (e.read) names.emplace_back(e.text.substr(1));
+  return names;
+}
 
 inline void require(bool held) {
   if (!held) throw std::logic_error("a reader gave what it promises not to give");
@@ -64,10 +69,8 @@ inline void read_frames(const std::string& bytes, bool mdd) {
 }
 
 inline void read(std::string_view format, const std::string& bytes) {
-  if (format == "obj") return read_mesh(bytes, io::MeshFormat::obj);
-  if (format == "off") return read_mesh(bytes, io::MeshFormat::off);
-  if (format == "ply") return read_mesh(bytes, io::MeshFormat::ply);
-  if (format == "stl") return read_mesh(bytes, io::MeshFormat::stl);
+  if (const io::MeshEnding* mesh = io::find_mesh_ending("fuzz." + std::string(format)))
+    return read_mesh(bytes, mesh->format);
   if (format == "pc2" || format == "mdd") return read_frames(bytes, format == "mdd");
   if (format == "camera") io::read_camera(FileOf(bytes).path());
   if (format == "strokes") io::drawn_strokes_from(bytes, "fuzz");

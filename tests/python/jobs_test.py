@@ -318,13 +318,10 @@ class Ends(unittest.TestCase):
 
 
 class Keywords(unittest.TestCase):
-    JOBS = ("wrinkle", "simulate", "drape", "keep", "chart", "fit", "transfer", "bake", "subdivide", "smooth", "body",
-            "doctor", "quality")
-
     def test_flags_of_the_command_line_and_keywords_are_the_same(self):
         if not PROGRAM:
             self.skipTest("the command line is not built")
-        for job in self.JOBS:
+        for job in furrow._JOBS:
             text = subprocess.run([PROGRAM, job, "--help-all"], capture_output=True, text=True).stdout
             flags = {f.replace("-", "_") for f in re.findall(r"^ +(?:-\w,)?(?:\w+,)?--([a-z][a-z0-9-]+)", text, re.M)}
             self.assertGreater(len(flags), 5, text)
@@ -336,7 +333,7 @@ class Keywords(unittest.TestCase):
             self.assertEqual(keywords - OF_PYTHON - flags, set(), job)
 
     def test_signatures_and_docstrings_tell_them(self):
-        for job in self.JOBS:
+        for job in furrow._JOBS:
             function = getattr(furrow, job)
             for name, parameter in inspect.signature(function).parameters.items():
                 if parameter.kind is parameter.KEYWORD_ONLY:

@@ -151,19 +151,16 @@ def _function(job):
     return function
 
 
-wrinkle, simulate, drape, keep = _function("wrinkle"), _function("simulate"), _function("drape"), _function("keep")
-chart, fit, transfer, bake = _function("chart"), _function("fit"), _function("transfer"), _function("bake")
-subdivide, smooth, doctor = _function("subdivide"), _function("smooth"), _function("doctor")
-body, quality = _function("body"), _function("quality")
+globals().update({job: _function(job) for job in _JOBS})
 
 
 def read_mesh(path, *, unit=None, up=None):
-    """The mesh of a file: obj, ply, off, stl, gltf, glb. unit: m, cm, mm, inch; up: y, z (default m, y, or as noted)."""
+    """The mesh of a file, of a format that `furrow info --help` lists. unit: m, cm, mm, inch; up: y, z (default m, y, or as noted)."""
     return _furrow.read_mesh(path, {"unit": unit, "up": up}, _warner(level=3))
 
 
 def _write(self, path, *, unit=None, up=None):
-    """Writes the mesh by the ending of the path: obj, ply, off, stl, glb; whole or not at all."""
+    """Writes the mesh by the ending of the path: one that `furrow smooth --help` lists; whole or not at all."""
     _furrow.write_mesh(self, path, {"unit": unit, "up": up}, _warner(level=3))
 
 

@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 TEST_CASE(
     "fuzz corpus: each format has inputs, and its reader takes or refuses each of them and its halves") {
-  for (const std::string_view format : fuzz::formats) {
+  for (const std::string& format : fuzz::formats()) {
     int inputs = 0, taken = 0;
     for (const auto& entry :
          fs::directory_iterator(fs::path(FURROW_SOURCE_DIR) / "tests/fuzz/corpus" / format)) {
