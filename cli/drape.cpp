@@ -276,15 +276,10 @@ int drape(const DrapeArguments& a) {
   if (animated) json["animation"] = a.animation;
   const bool many = report.garments.size() > 1;
   std::vector<std::string> next;
-  if (!a.out.empty() && a.out != "-" && !many)
-    next = report.scene.body ? std::vector<std::string>{"furrow",
-                                                        "fit",
-                                                        a.out,
-                                                        "--body",
-                                                        report.scene.body->mesh.string(),
-                                                        "--picture",
-                                                        "fit.png"}
-                             : std::vector<std::string>{"furrow", "render", a.out, "-o", "rests.png"};
+  if (!a.out.empty() && a.out != "-" && !many && report.scene.body)
+    next = {"furrow", "fit", a.out, "--body", report.scene.body->mesh.string(), "--picture", "fit.png"};
+  else if (!a.out.empty() && a.out != "-" && !many && !draws)
+    next = {"furrow", "render", a.out, "-o", "rests.png"};
   std::vector<std::string> files = written_files(report, a);
   files.insert(files.end(), {draws ? a.picture : "", animated ? a.animation : ""});
   print_report(json, common, {drape_lines(json), files, next});

@@ -65,6 +65,18 @@ Lines keep_lines(const Json& report) {
   return lines;
 }
 
+/// How what was kept moves on: from its state, or with what this call said of it. A scene or an older state
+/// says that itself, of another garment: then none.
+std::vector<std::string> next_of_kept(const KeepArguments& a, const KeepReport& report) {
+  const std::string mesh = report.mesh.string(), state = report.saved_state.string();
+  if (!state.empty()) return {"furrow", "simulate", "--state", state, "-o", "after.ply"};
+  if (mesh.empty() || mesh == "-" || a.in.empty() || is_scene(a.in)) return {};
+  std::vector<std::string> next = a.flags.words(io::used_by::simulate);
+  next.insert(next.begin(), {"furrow", "simulate", mesh});
+  next.insert(next.end(), {"-o", "after.ply"});
+  return next;
+}
+
 int keep(const KeepArguments& a) {
   catch_interrupts();
   Terminal terminal(a, a.job.budget);
@@ -83,13 +95,7 @@ int keep(const KeepArguments& a) {
   Json json = to_json(report);
   json["written"] =
       names_of_files({report.mesh.string(), report.saved_state.string(), a.picture, a.camera.save_camera});
-  const std::string mesh = report.mesh.string();
-  print_report(json, common,
-               {keep_lines(json),
-                {mesh, a.picture},
-                mesh.empty() || mesh == "-" ? std::vector<std::string>{}
-                                            : std::vector<std::string>{"furrow", "simulate", mesh,
-                                                                       "PINS_AND_BODY", "-o", "after.ply"}});
+  print_report(json, common, {keep_lines(json), {report.mesh.string(), a.picture}, next_of_kept(a, report)});
   for (const Warning& w : report.warnings) terminal.warn(w);
   return exit_code_of(report.lines.interrupted && !report.budget_spent,
                       report.all_hold() && !report.budget_spent);

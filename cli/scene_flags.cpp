@@ -97,6 +97,24 @@ void SceneFlags::apply(io::TomlDocument& document) const {
   apply_sets(document, sets_);
 }
 
+std::vector<std::string> SceneFlags::words(unsigned subcommand) const {
+  std::vector<std::string> words;
+  for (const Given& g : given_) {
+    const io::Setting& s = *g.setting;
+    if (!g.option->count() || !(s.flag_in & subcommand) || s.table() == "output") continue;
+    words.push_back(flag_name(s));
+    if (s.kind != io::Kind::yes_no) words.push_back(g.text);
+  }
+  const auto add = [&](const char* flag, const std::string& value) {
+    words.insert(words.end(), {flag, value});
+  };
+  for (const std::string& box : pin_boxes_) add("--pin-box", box);
+  for (const std::string& loop : pin_loops_) add("--pin-loop", loop);
+  for (const std::string& group : pin_groups_) add("--pin-group", group);
+  for (const int vertex : pin_vertices_) add("--pin-vertices", std::to_string(vertex));
+  return words;
+}
+
 std::string SceneFlags::first() const {
   for (const Given& g : given_)
     if (g.option->count()) return io::flag_of(g.setting->keyword);

@@ -18,6 +18,8 @@ class SceneFlags {
   /// Writes what was given on the command line into the document, flags first, then --set in their order.
   /// Throws UsageError for a --set without a key or with one that cannot be.
   void apply(io::TomlDocument& document) const;
+  /// What was given and this subcommand has, too, as words of a call of it; without outputs and --set.
+  std::vector<std::string> words(unsigned subcommand) const;
   std::string first() const;  ///< the name of one of them that was given, but for --set; "": none was
 
  private:

@@ -30,14 +30,14 @@ struct StudioArguments : CommonArguments {
 };
 
 #ifdef FURROW_STUDIO
-/// Shows the address in the user's browser, if there is a program that does.
-void open_browser(const std::string& url) {
+/// Shows an address or a folder to the user, if there is a program that does.
+void show_place(const std::string& place) {
   const pid_t child = fork();
   if (child < 0) return;
   if (child == 0) {
     if (fork() == 0) {  // a grandchild, which nobody needs to wait for
       for (const char* opener : {"xdg-open", "open"})
-        execlp(opener, opener, url.c_str(), static_cast<char*>(nullptr));
+        execlp(opener, opener, place.c_str(), static_cast<char*>(nullptr));
     }
     _exit(0);
   }
@@ -56,7 +56,8 @@ std::string first_flag(const StudioArguments& a) {
 }
 
 std::unique_ptr<studio::Studio> open_studio(const StudioArguments& a) {
-  const studio::Places places{shipped("scenes/studio")};
+  const studio::Places places{shipped("scenes/studio"), ".",
+                              [](const std::filesystem::path& folder) { show_place(folder.string()); }};
   if (a.in.empty()) {
     const std::string flag = !a.project.empty() ? "--project" : first_flag(a);
     if (!flag.empty()) throw UsageError(flag + ": belongs to a garment, which is not named");
@@ -149,7 +150,7 @@ int serve(const StudioArguments& a) {
                 << "\nCtrl-C ends it.\n";
   }
   flush_output();
-  if (!a.no_browser) open_browser(studio->url());
+  if (!a.no_browser) show_place(studio->url());
   while (!interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
   return exit_ok;  // that is how it is meant to end; nothing is lost
 }

@@ -200,7 +200,7 @@ int wrinkle(const WrinkleArguments& a) {
   json["written"] = names_of_files({a.out, a.inserted, a.smoothed, a.preview, a.camera.save_camera});
   const bool has_file = !a.out.empty() && a.out != "-";
   std::vector<std::string> next;
-  if (has_file && report.rest) next = {"furrow", "render", a.out, "-o", "rests.png"};
+  if (has_file && report.rest && a.preview.empty()) next = {"furrow", "render", a.out, "-o", "rests.png"};
   if (has_file && !report.rest)
     next = a.state.empty()
                ? std::vector<std::string>{"furrow", "simulate", a.out, "--body", "BODY", "-o", "worn.ply"}

@@ -241,10 +241,11 @@ Json Session::keep(const Json&) {
   require_brought("keep");
   const jobs::KeptSketch kept = jobs::keep_sketch(sketch_, strokes_on(project_->now().drawing), *this);
   take_result("kept", "keep", kept.file, nullptr);
-  out_.show(everybody, std::make_shared<const std::string>(colour_bytes(kept.colours)));
   Json lines = Json::array();
-  for (const jobs::KeptSketchLine& line : kept.lines)
+  for (const jobs::KeptSketchLine& line : kept.lines) {
     lines.push_back({{"name", line.name}, {"verdict", line.verdict}, {"words", line.words}});
+    if (line.end) lines.back()["at"] = *line.end;
+  }
   return {
       {"verdicts", lines}, {"all_hold", kept.all_hold}, {"legend", kept.legend}, {"remarks", kept.remarks}};
 }

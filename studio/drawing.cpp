@@ -96,7 +96,9 @@ std::string free_name(const Json& drawing, const std::string& word) {
 
 std::string free_name_for(const Json& drawing, const Json& stroke) {
   const Json height = stroke.value("height", Json());
-  return free_name(drawing, height.is_number() && height.get<double>() < 0 ? "valley" : "ridge");
+  const auto is_low = [](const Json& h) { return h.is_number() && h.get<double>() < 0; };
+  const bool is_valley = height.is_array() ? std::ranges::any_of(height, is_low) : is_low(height);
+  return free_name(drawing, is_valley ? "valley" : "ridge");
 }
 
 std::filesystem::path made_for_of(const Json& drawing, const std::filesystem::path& folder) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a page asks of lines.
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -94,6 +95,17 @@ void rename_turned(const Json& drawing, const Json& before, Json& stroke) {
     stroke["name"] = free_name_for(drawing, stroke);
 }
 
+/// The height at each point of a line, on the side of the line's own height.
+Json heights_of(const Json& body, std::size_t points, double side) {
+  const Json& heights = body["heights"];
+  const auto fits = [&](const Json& h) {
+    return h.is_number() && std::abs(h.get<double>()) <= 1 && h.get<double>() * side >= 0;
+  };
+  if (!heights.is_array() || heights.size() != points || !std::ranges::all_of(heights, fits))
+    throw Refused("heights: is no list of a number for each point, all to the side of the height");
+  return heights;
+}
+
 void add_line(Json& drawing, Json stroke) {
   drawing["lines"].push_back({{"on", true}, {"stroke", std::move(stroke)}});
 }
@@ -115,6 +127,7 @@ Json Session::draw(const Json& body) {
   if (body.contains("sharpness")) stroke["sharpness"] = number_of(body, "sharpness", 0, 1);
   if (flag_of(body, "closed")) stroke["closed"] = true;
   stroke["points"] = points_of(body);
+  if (body.contains("heights")) stroke["height"] = heights_of(body, stroke["points"].size(), height);
   const std::string name = stroke["name"];
   const bool both = flag_of(body, "mirror") && !jobs::lies_in_middle(stroke, middle());
   add_line(drawing, stroke);

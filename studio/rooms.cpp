@@ -61,11 +61,11 @@ std::string choice_of(const Json& body, const char* key, std::initializer_list<c
   return word;
 }
 
-std::string words_of(const jobs::GuessedFrame& frame) {
+std::string words_of(const jobs::GuessedFrame& frame, bool has_body) {
   char text[200];
   std::snprintf(
-      text, sizeof text, "Taken as %s with %s upwards, so it is %.2f m tall%s", frame.unit.c_str(),
-      frame.up.c_str(), frame.height,
+      text, sizeof text, "Taken as %s with %s upwards, so the %s is %.2f m tall%s", frame.unit.c_str(),
+      frame.up.c_str(), has_body ? "body" : "garment", frame.height,
       frame.sure ? "." : ". That is not certain: if it is wrong, open it again and say unit and axis.");
   return text;
 }
@@ -101,7 +101,10 @@ void Rooms::allow() {
 
 Json Rooms::gallery_rows() const {
   Json rows = Json::array();
-  for (const GalleryItem& item : items_) rows.push_back({{"name", item.name}, {"title", item.title}});
+  for (const GalleryItem& item : items_) {
+    rows.push_back({{"name", item.name}, {"title", item.title}});
+    if (!item.picture.empty()) rows.back()["picture"] = item.picture;
+  }
   return rows;
 }
 
@@ -125,11 +128,14 @@ void Rooms::pull(Client client, const Message& message) {
 
 void Rooms::handle(Client client, const Message& message) {
   const auto session = present();
-  if (session && message.what != "open") return session->handle(client, message);
+  const bool is_own = message.what == "open" || message.what == "folder";
+  if (session && !is_own) return session->handle(client, message);
   std::string why = "nothing is open yet; choose a garment first";
   try {
     if (message.what == "open")
       return out_.tell(client, {{"id", message.id}, {"done", open(client, message.body)}});
+    if (session && message.what == "folder")
+      return out_.tell(client, {{"id", message.id}, {"done", show_folder(client, message.body)}});
   } catch (const std::bad_alloc&) {
     why = "not enough memory for that; nothing was opened";
   } catch (const std::exception& e) {
@@ -148,6 +154,20 @@ Json Rooms::open(Client client, const Json& body) {
   for (const Client page : pages_)
     if (page != client) present()->greet(page);
   return answer;
+}
+
+/// That of the drawing, or the one in it where things are given away: no other can be asked for.
+Json Rooms::show_folder(Client client, const Json& body) const {
+  const auto session = present();
+  if (!session->may_command(client)) throw Refused("another page is drawing");
+  const std::string of = choice_of(body, "of", {"project", "give"});
+  const fs::path& project = session->project().folder();
+  const fs::path folder = fs::absolute(of == "give" ? project / "give" : project).lexically_normal();
+  if (!fs::is_directory(fs::symlink_status(folder)))
+    throw Refused(folder.string() + ": is no folder any more");
+  if (!places_.show_folder) throw Refused("nothing here shows folders; this one is " + folder.string());
+  places_.show_folder(folder);
+  return {{"folder", folder.string()}};
 }
 
 void Rooms::enter(const jobs::SceneInput& scene, const fs::path& folder, const fs::path& made_for) {
@@ -196,7 +216,7 @@ Json Rooms::open_files(const Json& body) {
   enter(scene, ground.folder(), made_for ? ground.folder() / other : fs::path());
   ground.keep();
   Json answer{{"project", ground.folder().string()}};
-  if (unit.empty() || up.empty()) answer["told"] = Json::array({words_of(guess)});
+  if (unit.empty() || up.empty()) answer["told"] = Json::array({words_of(guess, worn_by.has_value())});
   return answer;
 }
 

@@ -36,6 +36,7 @@ class Rooms {
   std::shared_ptr<Session> present() const;
   Json gallery_rows() const;
   Json open(Client client, const Json& body);
+  Json show_folder(Client client, const Json& body) const;
   Json open_item(const std::string& name);
   Json open_files(const Json& body);
   std::optional<Upload> sent(const Json& body, const char* key);

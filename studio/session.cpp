@@ -314,7 +314,7 @@ Json Session::give(const Json& body) {
     return give_animation(original.stem().string() + (as == "pc2" ? ".pc2" : "-moving.glb"));
   const std::filesystem::path path = jobs::give_sketch(sketch_, strokes_on(project_->now().drawing), as,
                                                        original, project_->folder() / "give", *this);
-  return {{"file", std::filesystem::absolute(path).string()}};
+  return {{"file", std::filesystem::absolute(path).lexically_normal().string()}};
 }
 
 /// The motion since the last drape, or since the beginning, once more.
@@ -333,7 +333,7 @@ Json Session::give_animation(const std::string& name) {
   std::filesystem::create_directories(file.parent_path());
   std::string files;
   for (const auto& part : jobs::give_motion(project_->folder() / "motion.toml", file, *this))
-    files += (files.empty() ? "" : ", ") + std::filesystem::absolute(part).string();
+    files += (files.empty() ? "" : ", ") + std::filesystem::absolute(part).lexically_normal().string();
   return {{"file", files}};
 }
 

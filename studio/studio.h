@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -13,6 +14,8 @@ namespace furrow::studio {
 struct Places {
   std::filesystem::path gallery;         ///< folder of scenes; empty: there is none
   std::filesystem::path drawings = ".";  ///< folder in which their projects are made
+  /// Shows a folder to the user, in whatever shows folders here; null: nothing does.
+  std::function<void(const std::filesystem::path&)> show_folder = {};
 };
 
 /// A studio that serves one drawing at a time to pages on this machine, in threads of its own, from its

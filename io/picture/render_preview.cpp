@@ -11,18 +11,15 @@
 namespace furrow::io {
 namespace {
 
-/// A quarter of the mean edge, so that dots do not hide the line between them on a fine mesh, and never more
-/// than a little above the line. In tubes, which are some 1/600 of a garment that fills the picture.
-double dot_width(const geometry::Mesh& mesh, const std::set<geometry::Edge>& edges) {
-  constexpr double largest_value = 1.6, least = 0.3, tube = 1.0 / 600;
-  if (edges.empty()) return largest_value;
+/// The mean length of edges, in tubes, which are some 1/600 of a garment that fills the picture; 0: none.
+double mean_in_tubes(const geometry::Mesh& mesh, const std::set<geometry::Edge>& edges) {
+  constexpr double tube = 1.0 / 600;
   double sum = 0;
   for (geometry::Edge e : edges) sum += geometry::spatial_length(mesh, e);
   CGAL::Bbox_3 box;
   for (geometry::Vertex v : mesh.vertices()) box += mesh.point(v).bbox();
   const double height = std::max({box.x_span(), box.y_span(), box.z_span()});
-  if (!(height > 0)) return largest_value;
-  return std::clamp(0.25 * sum / double(edges.size()) / (tube * height), least, largest_value);
+  return height > 0 && !edges.empty() ? sum / double(edges.size()) / (tube * height) : 0;
 }
 
 }  // namespace
@@ -40,14 +37,18 @@ RenderScene preview_scene(const geometry::Mesh& inserted,
   for (Face f : selected)
     for (Halfedge h : halfedges_of(inserted, f)) edges.insert(inserted.edge(h));
   const auto marked = find_map(inserted, attribute::line_edge);
+  // By the mean edge, so that what is pointed out stays to be seen between edges and dots on a fine mesh.
+  // Edges of less than thinnest_edge would be grey haze.
+  constexpr double widest_edge = 0.35, thinnest_edge = 0.08, least_dot = 0.3, largest_dot = 1.6;
+  const double mean = mean_in_tubes(inserted, edges), width = std::min(widest_edge, 0.03 * mean),
+               dot = std::clamp(0.15 * mean, least_dot, largest_dot);
   for (Edge e : edges) {
-    if (marked && (*marked)[e]) continue;
+    if (width < thinnest_edge || (marked && (*marked)[e])) continue;
     scene.lines.push_back({{position_of(inserted.point(inserted.vertex(e, 0))),
                             position_of(inserted.point(inserted.vertex(e, 1)))},
                            colours.edge,
-                           0.35});
+                           width});
   }
-  const double dot = dot_width(inserted, edges);
   for (Vertex v : inserted.vertices())
     if (v.idx() >= old_vertices)
       scene.lines.push_back({{position_of(inserted.point(v))}, colours.vertex, dot});

@@ -10,12 +10,14 @@
 #include <cerrno>
 #include <cstring>
 #include <ostream>
+#include <span>
 #include <stdexcept>
 #include <string_view>
 #include <tuple>
 #include <utility>
 
 #include "io/base/atomic_file.h"
+#include "io/base/base64.h"
 #include "io/base/json_fields.h"
 
 namespace furrow::jobs {
@@ -113,6 +115,10 @@ std::uintmax_t append_at(const fs::path& path, std::uintmax_t size, const std::s
     fail_to_write(path);
   }
   return size + text.size();
+}
+
+std::string data_url(const std::string& type, const std::string& bytes) {
+  return "data:" + type + ";base64," + io::to_base64(std::as_bytes(std::span(bytes)));
 }
 
 FolderLock::FolderLock(const fs::path& folder) {

@@ -31,6 +31,9 @@ void write_whole(const std::filesystem::path& path, const std::string& bytes);
 /// first `size` bytes are as they were. Another name of the file (a hard link) keeps the old content.
 std::uintmax_t append_at(const std::filesystem::path& path, std::uintmax_t size, const std::string& text);
 
+/// The bytes as an address of their own, by which a page shows them; `type`: "image/png".
+std::string data_url(const std::string& type, const std::string& bytes);
+
 /// A folder that one program has for itself, by the lock of a file "lock" in it, which ends with the program,
 /// however that ends.
 class FolderLock {

@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -9,10 +10,13 @@
 
 namespace furrow::jobs {
 
-/// An edge of a drawn line, and whose.
+/// Of an edge across which the texture differs, and of no line.
+inline constexpr std::int32_t seam_edge = std::numeric_limits<std::int32_t>::min();
+
+/// An edge of a drawn line, and whose; or of a seam.
 struct ShownEdge {
   std::uint32_t from, to;
-  std::int32_t line;  ///< index among the lines that are shown
+  std::int32_t line;  ///< index among the lines that are shown; or seam_edge
 };
 
 /// A mesh as a display takes it.

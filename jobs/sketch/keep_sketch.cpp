@@ -3,12 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "geometry/fold/line_region.h"
 #include "geometry/mesh/property_names.h"
 #include "jobs/chain/keep.h"
 #include "jobs/sketch/sketch_rounds.h"
@@ -19,63 +17,50 @@ namespace {
 
 using bridge::KeptLine;
 using bridge::Verdict;
-using Rgb = std::array<std::uint8_t, 3>;
-
-struct VerdictLook {
-  const char* word;
-  Rgb colour;
-};
-
-/// The colours of verdict_scene.cpp, as lights.
-VerdictLook look_of(Verdict verdict) {
+const char* word_of(Verdict verdict) {
   switch (verdict) {
     case Verdict::held:
-      return {"held", {64, 168, 104}};
+      return "held";
     case Verdict::pressed:
-      return {"pressed", {240, 205, 60}};
+      return "pressed";
     case Verdict::strutted:
-      return {"strutted", {243, 135, 60}};
+      return "strutted";
     case Verdict::lowered:
-      return {"lowered", {70, 120, 220}};
+      return "lowered";
     case Verdict::may_hold:
-      return {"may_hold", {160, 90, 210}};
+      return "may_hold";
     case Verdict::not_known:
-      return {"not_known", {150, 150, 150}};
+      return "not_known";
     case Verdict::cannot_hold:
       break;
   }
-  return {"cannot_hold", {196, 40, 50}};
+  return "cannot_hold";
 }
 
 constexpr const char* in_memory = "-";
-constexpr Rgb plain{216, 210, 198};
 constexpr const char* legend_of_verdicts =
     "Green: held. Yellow: held, pressed. Orange: held by struts. Blue: stands, lower than asked. "
     "Violet: may hold. Red: cannot hold.";
 
-/// The cloth of each line in its verdict's colour, the worst on top.
-std::vector<std::uint8_t> colours_of_verdicts(const KeepReport& report) {
-  const geometry::Mesh& mesh = report.garment.mesh;
-  std::vector<Rgb> colour(mesh.num_vertices(), plain);
+/// The upper end of a line; of a closed one, its uppermost vertex; none where the mesh has none of its
+/// vertices.
+std::optional<std::array<double, 3>> end_of(const geometry::Mesh& mesh, int line) {
   const auto id = geometry::find_map(mesh, geometry::attribute::line);
-  const std::vector<double> lengths = geometry::lengths_before_lines(mesh);
-  const std::vector<double> widths = io::line_widths(report.record);
-  for (const Verdict verdict : {Verdict::held, Verdict::pressed, Verdict::strutted, Verdict::lowered,
-                                Verdict::may_hold, Verdict::cannot_hold, Verdict::not_known})
-    for (const KeptLine& line : report.lines.lines) {
-      if (line.verdict != verdict || !id) continue;
-      std::vector<geometry::Vertex> seeds;
-      for (const geometry::Vertex v : mesh.vertices())
-        if ((*id)[v] == line.line) seeds.push_back(v);
-      const double width = std::size_t(line.line) < widths.size() ? widths[std::size_t(line.line)]
-                                                                  : std::numeric_limits<double>::quiet_NaN();
-      for (const geometry::Vertex v : geometry::line_region(mesh, seeds, width, lengths))
-        colour[v.idx()] = look_of(verdict).colour;
-    }
-  std::vector<std::uint8_t> bytes;
-  for (const geometry::Vertex v : mesh.vertices())
-    bytes.insert(bytes.end(), colour[v.idx()].begin(), colour[v.idx()].end());
-  return bytes;
+  const auto on_line = geometry::find_map(mesh, geometry::attribute::line_edge);
+  std::optional<std::array<double, 3>> best;
+  bool best_is_end = false;
+  for (const geometry::Vertex v : mesh.vertices()) {
+    if (!id || !on_line || (*id)[v] != line) continue;
+    int edges = 0;
+    for (const geometry::Halfedge h : mesh.halfedges_around_target(mesh.halfedge(v)))
+      edges += (*on_line)[mesh.edge(h)];
+    const geometry::Point p = mesh.point(v);
+    const bool is_end = edges == 1;
+    if (best && (is_end == best_is_end ? p.y() <= (*best)[1] : best_is_end)) continue;
+    best = {p.x(), p.y(), p.z()};
+    best_is_end = is_end;
+  }
+  return best;
 }
 
 /// Passes all on but that a mesh in memory would be written without its rest state: it is written as PLY.
@@ -115,12 +100,12 @@ KeptSketch keep_sketch(const Sketch& sketch, const Json& strokes, Listener& list
   if (!report.ran || report.lines.interrupted || listener.cancelled()) throw physics::Cancelled("cancelled");
   KeptSketch kept;
   kept.all_hold = report.all_hold();
-  kept.colours = colours_of_verdicts(report);
   kept.legend = legend_of_verdicts;
   for (const KeptLine& line : report.lines.lines) {
     const std::size_t i = std::size_t(line.line);
     kept.lines.push_back({i < report.record.lines.size() ? report.record.lines[i].name : "a line",
-                          look_of(line.verdict).word, words(line, report.record)});
+                          word_of(line.verdict), words(line, report.record),
+                          end_of(report.garment.mesh, line.line)});
   }
   for (const Warning& w : report.warnings) kept.remarks.push_back(w.text);
   kept.file = std::move(report.garment);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include <cstdint>
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@ struct KeptSketchLine {
   std::string
       verdict;        ///< "held", "pressed", "strutted", "lowered", "may_hold", "cannot_hold" or "not_known"
   std::string words;  ///< "held with press x10": jobs::words()
+  std::optional<std::array<double, 3>> end;  ///< its upper end, as it is shown [m]; none: it has no vertices
 };
 
 /// A sketch whose lines were kept.
@@ -21,9 +23,8 @@ struct KeptSketch {
   io::MeshFile file;  ///< with the rest state that keeps them [m]
   std::vector<KeptSketchLine> lines;
   bool all_hold = false;
-  std::vector<std::uint8_t> colours;  ///< of `file`'s vertices by their indices: red, green, blue
-  std::string legend;                 ///< what the colours mean
-  std::vector<std::string> remarks;   ///< of what is wrong with it
+  std::string legend;                ///< what the colours of verdicts mean
+  std::vector<std::string> remarks;  ///< of what is wrong with it
 };
 
 /// Gives the garment the rest state that keeps the strokes, and the lines that it has already, as

@@ -216,3 +216,43 @@ TEST_CASE("report: what to call next names files that are there, or words in cap
   }
   CHECK(told_next >= 6);
 }
+
+TEST_CASE("report: who has a picture is not told to make one") {
+  const ScratchDirectory scratch;
+  const std::string sheet = source_file("meshes/hung_sheet.obj"), picture = " --size 220,220 --picture ";
+  const std::string drape =
+      "drape " + sheet + " --pin-loop 0 --subdivide 0 --max-iterations 2 -o " + (scratch / "d.ply");
+  CHECK(told(drape, 4).find("next: furrow render") != std::string::npos);
+  CHECK(told(drape + picture + (scratch / "d.png"), 4).find("next:") == std::string::npos);
+  write_text(scratch / "lines.json", R"({"strokes":[{"height":0.01,"points":[[-0.1,0.3,0],[0.1,0.3,0]]}]})");
+  const std::string settle = "wrinkle " + sheet + " " + (scratch / "lines.json") +
+                             " --settle --rest drawn --pin-loop 0 -o " + (scratch / "s.ply");
+  CHECK(told(settle + picture + (scratch / "s.png"), 0).find("next:") == std::string::npos);
+}
+
+TEST_CASE("report: after keep the call that moves its garment can be made as it is printed", "[release]") {
+  const ScratchDirectory scratch;
+  const std::string drawn = scratch / "drawn.ply", kept = scratch / "kept.ply", state = scratch / "state.ply";
+  std::string sheet;
+  for (int i = 0; i < 81; ++i)
+    sheet += "v " + std::to_string(0.05 * (i % 9)) + " " + std::to_string(0.05 * (i / 9)) + " 0\n";
+  for (int a = 1; a < 72; ++a)
+    if (a % 9 != 0)
+      for (const auto& [b, c] : {std::pair(a + 1, a + 10), {a + 10, a + 9}})
+        sheet += "f " + std::to_string(a) + " " + std::to_string(b) + " " + std::to_string(c) + "\n";
+  write_text(scratch / "sheet.obj", sheet);
+  write_text(scratch / "lines.json", R"({"strokes":[{"height":0.01,"points":[[0.05,0.2,0],[0.35,0.2,0]]}]})");
+  REQUIRE(run_furrow("wrinkle " + (scratch / "sheet.obj") + " " + (scratch / "lines.json") + " -o " + drawn)
+              .exit_code == 0);
+  const auto next_of = [&](const std::string& outputs) {
+    const std::string out =
+        told("keep " + drawn + " --run 0.05 --gust 0 --pin-loop 0 --fabric cotton -o " + kept + outputs, 0);
+    const std::size_t at = out.find("next: furrow ");
+    return at == std::string::npos ? out : out.substr(at + 13, out.find('\n', at) - at - 13);
+  };
+  const std::string again = next_of(""), from_state = next_of(" --save-state " + state);
+  CHECK(again == "simulate " + kept + " --fabric cotton --pin-loop 0 -o after.ply");
+  CHECK(from_state == "simulate --state " + state + " -o after.ply");
+  const std::size_t end = again.rfind(" -o ");
+  CHECK(run_furrow(again.substr(0, end) + " --seconds 0.02 -o " + (scratch / "after.ply")).exit_code == 0);
+}

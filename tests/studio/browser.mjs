@@ -103,8 +103,9 @@ export async function stroke(tab, points) {
 
 export const strokesIn = (folder) => JSON.parse(readFileSync(join(scratch, folder, "strokes.json"), "utf8")).strokes;
 
-/** The picture, once it stays the same for a while: a slow machine draws later. */
+/** The picture, once its lines have faded and it stays the same for a while: a slow machine draws later. */
 export async function still(seen) {
+  await until("the lines have faded", async () => (await seen.tab.locator("canvas[data-fresh]").count()) === 0);
   let last = await seen.pixels();
   await until("the picture holds still", async () => {
     await seen.tab.waitForTimeout(400);

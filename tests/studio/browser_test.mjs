@@ -262,9 +262,21 @@ async function sheet() {
   await tab.keyboard.press("k");
   await seen.at(6);
   await until("the verdict", async () => (await tab.locator(".verdicts li").count()) === 2);
+  await still(seen);
   await seen.shot("12-kept");
+  const { colour } = await picture(seen), verdict = (await tab.locator(".verdicts .dot").first().getAttribute("class")).replace("dot ", "");
+  const isOf = { held: ([r, g, b]) => g > r + 25 && g > b + 25, may_hold: ([r, g, b]) => b > g + 60 && r > g + 30,
+    cannot_hold: ([r, g, b]) => r > g + 70 && r > b + 70 }[verdict];
+  const sign = Array.from({ length: 40000 }, (_, i) => colour(((i % 200) + 0.5) / 200, 0.15 + 0.7 * ((Math.floor(i / 200) + 0.5) / 200))).filter(isOf);
+  assert.ok(sign.length > 4 && sign.length < 400, `small signs say what became of the lines: ${verdict}, ${sign.length}`);
   assert.match(await tab.locator(".verdicts").innerText(), /held|cannot hold/);
   await tab.getByRole("button", { name: "Take back" }).click();
+  await seen.at(5);
+  await tab.keyboard.press("Control+y");
+  await seen.at(6);
+  await tab.getByRole("button", { name: "Accept" }).click();
+  await until("it is accepted", async () => (await tab.locator(".verdicts").count()) === 0);
+  await tab.keyboard.press("Control+z");
   await seen.at(5);
   assert.equal(await seen.lines(), 2);
   await tab.keyboard.press("t");

@@ -55,6 +55,32 @@ TEST_CASE("studio lines: a ridge that becomes a valley is called one, unless som
   CHECK(name(1) == "ridge 7");
 }
 
+TEST_CASE(
+    "studio lines: a pen that feels pressure draws heights along the line, which are the stroke's own") {
+  const Desk desk("pressure");
+  const studio::Studio studio(desk.scene, desk.project());
+  Visitor page(studio);
+  Json line = line_at(0.1, -0.02);
+  for (const Json& wrong : {Json::array({-0.01, -0.02}), Json::array({-0.01, 0.02, -0.01}), Json("high"),
+                            Json::array({-0.01, -2.0, -0.01}), Json::array({-0.01, nullptr, -0.01})}) {
+    line["heights"] = wrong;
+    CHECK(page.ask("draw", line).at("refused").get<std::string>().find("heights: ") == 0);
+  }
+  line["heights"] = {-0.005, -0.02, -0.01};
+  line["mirror"] = true;
+  REQUIRE(page.ask("draw", line).contains("done"));
+  REQUIRE(page.status.at("lines").size() == 2);
+  for (const int i : {0, 1}) {
+    CHECK(page.status["lines"][i].at("varies") == true);
+    CHECK(page.status["lines"][i].at("name") == "valley " + std::to_string(i + 1));
+  }
+  REQUIRE(page.ask("duplicate", {{"line", 0}}).contains("done"));
+  REQUIRE(page.ask("save").contains("done"));
+  CHECK(tests::saved_strokes(desk.project()).at(0).at("height") == line["heights"]);
+  REQUIRE(page.ask("set", {{"line", 0}, {"height", -0.01}}).contains("done"));
+  CHECK(page.status["lines"][0].at("height") == -0.01);
+}
+
 TEST_CASE("studio lines: several change at once, as one step, and stay ridges and valleys") {
   const Desk desk("several");
   const studio::Studio studio(desk.scene, desk.project());

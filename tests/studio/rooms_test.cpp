@@ -172,6 +172,59 @@ TEST_CASE(
 }
 
 TEST_CASE(
+    "studio rooms: the picture of a scene of the gallery lies beside it, and is none where it is too large") {
+  const House house("pictures");
+  const fs::path folder = house.desk.folder / "gallery";
+  CHECK(studio::gallery(folder).at(0).picture.empty());
+  std::ofstream(folder / "hung.png") << "abc";
+  CHECK(studio::gallery(folder).at(0).picture == "data:image/png;base64,YWJj");
+  std::ofstream(folder / "hung.png") << std::string((256 << 10) + 1, 'a');
+  CHECK(studio::gallery(folder).at(0).picture.empty());
+}
+
+TEST_CASE("studio rooms: what was written is shown in its folder, and no other folder is") {
+  const House house("folders");
+  std::vector<std::string> shown;
+  studio::Places places = house.places();
+  places.show_folder = [&](const fs::path& folder) { shown.push_back(folder.string()); };
+  const studio::Studio studio(places);
+  Visitor page(studio);
+  CHECK(refusal_of(page, "folder", {{"of", "give"}}).find("nothing is open yet") == 0);
+  REQUIRE(page.ask("open", {{"item", "hung"}}).contains("done"));
+  CHECK(refusal_of(page, "folder", {{"of", "give"}}).find("no folder any more") != std::string::npos);
+  REQUIRE(page.ask("give", {{"as", "obj"}}).contains("done"));
+  CHECK(refusal_of(page, "folder", {{"of", "give"}}) == "it was done");
+  CHECK(refusal_of(page, "folder", {{"of", "project"}}) == "it was done");
+  CHECK(refusal_of(page, "folder", {{"of", "/etc"}}) == "of: there is no '/etc'");
+  CHECK(refusal_of(page, "folder", {{"of", "../.."}}) == "of: there is no '../..'");
+  Visitor other(studio);
+  CHECK(refusal_of(other, "folder", {{"of", "give"}}).find("another page") == 0);
+  const fs::path project = house.desk.folder / "drawings/hung-studio";
+  CHECK(shown ==
+        std::vector<std::string>{fs::absolute(project / "give").string(), fs::absolute(project).string()});
+}
+
+TEST_CASE("studio rooms: the page is told of edges where the texture is parted, as lines may end there") {
+  const House house("seams");
+  const studio::Studio studio(house.places());
+  Visitor page(studio);
+  // Two squares side by side, each with a chart of its own.
+  const std::string text =
+      "v 0 0 0\nv 0.3 0 0\nv 0.6 0 0\nv 0 0.3 0\nv 0.3 0.3 0\nv 0.6 0.3 0\n"
+      "vt 0 0\nvt 0.4 0\nvt 0.6 0\nvt 1 0\nvt 0 0.4\nvt 0.4 0.4\nvt 0.6 0.4\nvt 1 0.4\n"
+      "f 1/1 2/2 5/6\nf 1/1 5/6 4/5\nf 2/3 3/4 6/8\nf 2/3 6/8 5/7\n";
+  REQUIRE(page.ask("open", {{"garment", number_of(studio, "two.obj", text)}, {"unit", "m"}, {"up", "y"}})
+              .contains("done"));
+  page.ask("show");
+  std::vector<std::uint32_t> words(page.cloth.size() / 4);
+  std::memcpy(words.data(), page.cloth.data(), 4 * words.size());
+  REQUIRE(words.at(4) == 1);
+  const std::size_t at = 6 + 6 * words[2] + 3 * words[3];
+  CHECK(std::set<std::uint32_t>{words[at], words[at + 1]} == std::set<std::uint32_t>{1, 4});
+  CHECK(words[at + 2] == 0x80000000u);
+}
+
+TEST_CASE(
     "studio rooms: a drawing in a folder of the working directory is kept, moved and moved on with its lines",
     "[release]") {
   const House house("relative");
@@ -203,7 +256,7 @@ TEST_CASE(
 
   const Json other = page.ask("open", {{"garment", number_of(studio, "level.obj", sheet_text(100, true))}});
   CHECK(other["done"].at("told").at(0).get<std::string>().find(
-            "Taken as cm with z upwards, so it is 0.50 m") == 0);
+            "Taken as cm with z upwards, so the garment is 0.50 m") == 0);
   const Json said = page.ask(
       "open", {{"garment", number_of(studio, "level.obj", sheet_text(100))}, {"unit", "m"}, {"up", "y"}});
   REQUIRE(said.contains("refused"));  // of 50 m; nothing is left of it

@@ -10,8 +10,9 @@ if(furrow_studio)
   # In a real browser; 77: there is none. The longest tests begin first.
   if(NOT FURROW_SANITIZE)
     set(studio_browser studio/browser_test.mjs)
+    set(studio_pen studio/pen_test.mjs)
     set(studio_journeys journeys/studio_journeys.mjs)
-    foreach(test studio_browser studio_journeys)
+    foreach(test studio_browser studio_pen studio_journeys)
       add_test(NAME ${test} COMMAND ${FURROW_NODE} ${CMAKE_CURRENT_SOURCE_DIR}/${${test}}
         $<TARGET_FILE:furrow> ${PROJECT_SOURCE_DIR}/meshes ${furrow_page} ${PROJECT_BINARY_DIR}/studio-pictures)
       set_tests_properties(${test} PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1800 COST 1000)

@@ -7,7 +7,7 @@ import { GiveAway } from "./give";
 import { Help } from "./help";
 import { History } from "./history";
 import { pressKey } from "./keys";
-import { Lines } from "./lines";
+import { Lines, ownWidth } from "./lines";
 import { Open, sorted } from "./open";
 import { mayDraw, type Page, usePage } from "./page";
 import { OverPicture } from "./picture";
@@ -27,7 +27,7 @@ function takeDroppedFiles(page: Page) {
 
 /** The picture follows the state. */
 function useShown(page: Page, studio?: Studio) {
-  const { status, chosen, tool, busy, both, middle, frames, seen } = page.now(),
+  const { status, chosen, tool, busy, both, middle, frames, seen, verdict } = page.now(),
     line = status?.lines[chosen];
   // The dots of the chosen line.
   useEffect(() => {
@@ -39,6 +39,7 @@ function useShown(page: Page, studio?: Studio) {
     );
   }, [studio, status?.step, chosen, line?.on]);
   useEffect(() => studio?.handles.show(), [studio, tool, busy]);
+  useEffect(() => studio?.pen.follow(), [studio, tool, busy, frames]);
   useEffect(
     () => studio?.view.showPlane(both && status ? (middle ?? status.middle) : null),
     [both, middle, status?.middle, frames],
@@ -46,12 +47,19 @@ function useShown(page: Page, studio?: Studio) {
   // The list of lines that the picture shows is not the whole list: some may be switched off.
   useEffect(() => {
     if (!status) return;
-    studio?.view.mark(
-      status.shown.map((i) => Math.sign(status.lines[i].height ?? 1)),
-      status.shown.indexOf(chosen),
+    studio?.view.marks.mark(
+      status.shown.map((i) => {
+        const { height = 0.01, width = ownWidth(height) } = status.lines[i];
+        return { sign: Math.sign(height), width };
+      }),
+      tool === "look" ? status.shown.indexOf(chosen) : -1,
     );
     if (chosen >= status.lines.length) page.set({ chosen: -1 });
-  }, [status, chosen]);
+  }, [status, chosen, tool]);
+  useEffect(
+    () => studio?.view.marks.judge((verdict?.step === status?.step && verdict?.done.verdicts) || []),
+    [verdict, status?.step],
+  );
   useEffect(() => studio?.view.see(seen), [studio, seen]);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The cloth: what it is made of, what holds it, and what it is asked to do.
+import { Fabrics } from "./fabrics";
 import { Slider } from "./lines";
 import type { Border, Done, Status, Vector } from "./protocol";
 
@@ -131,18 +132,6 @@ export function Cloth({ status, busy, mayDraw, map, moving, speed, kept, actions
   return (
     <section class="cloth" aria-label="Cloth">
       <h2>Cloth</h2>
-      <label>
-        Fabric
-        <select value={status.fabric} onChange={(e) => actions.fabric(e.currentTarget.value)}>
-          {status.fabrics.map((f) => (
-            <option key={f.name} value={f.name}>
-              {f.name}: {f.words}
-            </option>
-          ))}
-        </select>
-      </label>
-      <Borders status={status} actions={actions} />
-      <Wind wind={status.wind} blow={actions.wind} />
       <div class="group wrap">
         <button
           disabled={!held || !brought || !idle}
@@ -211,6 +200,9 @@ export function Cloth({ status, busy, mayDraw, map, moving, speed, kept, actions
           {busy === "play" && " Pull it with the pointer."}
         </p>
       )}
+      <Fabrics status={status} choose={actions.fabric} />
+      <Borders status={status} actions={actions} />
+      <Wind wind={status.wind} blow={actions.wind} />
       <div class="group" role="group" aria-label="Colours">
         <span>Show</span>
         {(

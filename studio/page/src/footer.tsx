@@ -32,6 +32,12 @@ export function Footer({ page, studio }: { page: Page; studio?: Studio }) {
       <div class={words.bad ? "say bad" : "say"} role={words.bad ? "alert" : "status"}>
         {gone ? "The program has ended. Every step is kept: start furrow studio again to go on." : words.text}
       </div>
+      {words.folder && <button onClick={() => void studio?.openFolder(words.folder!)}>Open folder</button>}
+      {words.link && (
+        <a href={words.link} target="_blank">
+          Open it
+        </a>
+      )}
       {lost && isIdle(state) && status?.undo === "drape" && (
         <button class="main" onClick={() => void studio?.keepInstead()}>
           Undo and keep its lines

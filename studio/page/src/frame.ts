@@ -15,9 +15,20 @@ export interface Frame {
   positions: Float32Array;
   undrawn: Float32Array; // where the vertices would lie without the heights of their lines
   faces: Uint32Array;
-  edges: Int32Array; // from, to, line
+  edges: Int32Array; // from, to, line; or those of seams
   pinned: Uint32Array;
 }
+
+/** What stands for an edge of a seam in place of its line (jobs/draw/shown_mesh.h). */
+const seam = -0x80000000;
+
+export function seamEdges({ edges }: Frame): [number, number][] {
+  const found: [number, number][] = [];
+  for (let e = 0; e < edges.length; e += 3) if (isSeam(edges[e + 2])) found.push([edges[e], edges[e + 1]]);
+  return found;
+}
+
+export const isSeam = (line: number) => line === seam;
 
 /** Where the vertices of the cloth, or of the body, are while they move. */
 export interface Moving {

@@ -29,8 +29,16 @@ export function GiveAway({ page, studio }: { page: Page; studio: Studio }) {
             {label}
           </button>
         ))}
-        <button class="small" title="What is seen, as PNG" onClick={() => studio.takePicture()}>
+        <button class="small" title="What is seen, as PNG" onClick={() => void studio.takePicture()}>
           Picture
+        </button>
+        <button
+          class="small"
+          title="Once round it, as a GIF"
+          disabled={!isIdle(page.now())}
+          onClick={() => void studio.takeTurn()}
+        >
+          Turn
         </button>
       </div>
     </section>

@@ -4,7 +4,9 @@ import { useEffect, useRef } from "preact/hooks";
 const keys: [string, string][] = [
   ["R", "ridge pen"],
   ["V", "valley pen"],
+  ["[ ]", "a smaller or a larger pen; or drag to a side on the cloth with Ctrl"],
   ["Shift", "while drawing: a straight line"],
+  ["Alt", "while drawing: its ends stay beside seams and borders"],
   ["Esc", "drop the line, or lay the pen down"],
   ["Ctrl Z", "undo"],
   ["Ctrl Y", "do again"],
@@ -20,6 +22,7 @@ const keys: [string, string][] = [
   ["+ −", "nearer, farther"],
   ["B", "body"],
   ["W", "wireframe"],
+  ["C", "the shape alone, as of clay"],
   ["L", "lines"],
   ["Space", "play, pause"],
   ["D", "drape: let it come to rest"],

@@ -33,6 +33,11 @@ export class LineChanges implements LineActions {
     this.page.set({ chosen: line });
   }
 
+  point(line: number | null) {
+    const shown = line === null ? -1 : (this.page.now().status?.shown.indexOf(line) ?? -1);
+    this.studio.view.marks.point(shown < 0 ? null : shown);
+  }
+
   set(lines: number | number[], change: LineChange, isLive: boolean) {
     const isOneOfSeveral = Array.isArray(lines),
       body = { ...(isOneOfSeveral ? { lines } : { line: lines }), ...change };

@@ -14,6 +14,8 @@ export interface LineChange {
 }
 export interface LineActions {
   choose(line: number): void;
+  /** The pointer is over it; null: over none. */
+  point(line: number | null): void;
   /** Of a line, or of several. `live`: while a slider moves. */
   set(lines: number | number[], change: LineChange, live: boolean): void;
   remove(line: number): void;
@@ -31,6 +33,7 @@ const usualSharpness = 0;
 
 interface SliderProps {
   label: string;
+  short?: string; // what is seen of it
   value: number;
   min: number;
   max: number;
@@ -39,13 +42,13 @@ interface SliderProps {
   change(value: number, live: boolean): void;
 }
 /** `text`: of a value, as it is said. While it is dragged it shows where it is, whatever the program sends. */
-export function Slider({ label, value, min, max, step, text, change }: SliderProps) {
+export function Slider({ label, short, value, min, max, step, text, change }: SliderProps) {
   const [dragged, setDragged] = useState<number | null>(null);
   const at = dragged ?? value,
     said = text(at, dragged !== null);
   return (
     <>
-      <span aria-hidden="true">{label}</span>
+      <span aria-hidden="true">{short ?? label}</span>
       <input
         type="range"
         aria-label={label}
@@ -270,6 +273,8 @@ export function Lines({
         {lines.map((line, i) => (
           <li
             key={i}
+            onPointerEnter={() => actions.point(i)}
+            onPointerLeave={() => actions.point(null)}
             class={[
               i === chosen ? "chosen" : "",
               i === held ? "held" : "",

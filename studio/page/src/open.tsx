@@ -110,7 +110,8 @@ export function Open({ items, first, files, bad, open, close }: Props) {
         <div class="gallery">
           {items.map((item) => (
             <button key={item.name} disabled={busy} onClick={() => void go({ item: item.name })}>
-              {item.title}
+              {item.picture && <img src={item.picture} alt="" />}
+              <span>{item.title}</span>
             </button>
           ))}
         </div>

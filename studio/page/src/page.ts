@@ -9,12 +9,31 @@ import type { Seen } from "./view";
 export type Tool = "look" | "ridge" | "valley" | "pin";
 export type Busy = "" | "drape" | "keep" | "give" | "play";
 
+/** How the height follows a pen's pressure: as it is, sooner, later, or not at all. */
+export type Feel = "even" | "soft" | "firm" | "none";
+
+/** Of the next line; width null: as the program chooses it. */
+export interface Draft {
+  height: number;
+  width: number | null;
+  feel: Feel;
+}
+
+/** What is said below the picture. `folder`: that of what was written; `link`: to what the page made. */
+export interface Words {
+  text: string;
+  bad: boolean;
+  folder?: "give" | "project";
+  link?: string;
+}
+
 export interface State {
   status?: Status;
   me: number; // this client, as the program counts them
   gone: boolean; // the program has ended
   tool: Tool;
-  draft: { height: number; width: number | null }; // of the next line; null: as the program chooses it
+  draft: Draft;
+  feels: boolean; // a pen has shown that it feels pressure
   both: boolean; // what is drawn is mirrored
   middle: number | null; // of the mirror, while it is dragged
   chosen: number; // line; -1: none
@@ -25,7 +44,7 @@ export interface State {
   frames: number; // meshes that came so far
   busy: Busy;
   progress?: Progress;
-  words: { text: string; bad: boolean };
+  words: Words;
   verdict?: { step: number; done: Done }; // of the shape that the step made
   lost: boolean; // what was draped has lost lines
   moving: number; // time of the cloth in motion [s]
@@ -41,12 +60,13 @@ const first: State = {
   me: 0,
   gone: false,
   tool: "look",
-  draft: { height: 0.02, width: null },
+  draft: { height: 0.02, width: null, feel: "even" },
+  feels: false,
   both: false,
   middle: null,
   chosen: -1,
   dragging: false,
-  seen: { body: true, wire: false, lines: true },
+  seen: { body: true, wire: false, lines: true, clay: false },
   map: "",
   tangles: false,
   frames: 0,

@@ -1,20 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The pen: a line that sticks to the cloth while the button is down.
 import type { Hit } from "./picker";
+import { Ring } from "./ring";
 import type { View } from "./view";
 
-/** `pressure`: the mean of a pen that feels it, 0.5 where it is held as usual. */
+/** `pressures`: at each point, of a pen that feels it, 0.5 where it is held as usual. */
 export interface Drawn {
   points: number[][];
   closed: boolean;
-  pressure?: number;
+  pressures?: number[];
 }
 export interface PenSettings {
   on: boolean;
   colour: number;
   width: number;
+  isValley: boolean;
 }
 export interface PenHearer {
+  /** It feels pressure. */
+  feels(): void;
+  /** Its size is to be so many times what it was when a drag for it began, and now is. */
+  sized(factor: number, isOver: boolean): void;
   drawn(line: Drawn): void;
   tooShort(): void;
 }
@@ -27,14 +33,22 @@ const spacing = 0.004,
  *  a border that a line is taken to reach. */
 const step = 3,
   beside = 40,
-  short = 20;
+  short = 20,
+  nearSeam = 14;
+/** A drag for the pen's size that makes it e times as wide [pixels]. */
+const forSize = 160;
+/** Points before and after, over which pressure is evened out. */
+const evened = 4;
 
 export class Pen {
   private hits: Hit[] = [];
   private last?: [number, number];
   private first?: [number, number];
   private down = false;
-  private pressures: number[] = [];
+  private pressure = 0; // now; 0: none is felt
+  private pressures: number[] = []; // at each of the hits
+  private sizing: { x: number; at: Hit } | null = null;
+  private ring: Ring;
 
   constructor(
     private view: View,
@@ -42,6 +56,8 @@ export class Pen {
     private hearer: PenHearer,
   ) {
     const canvas = view.canvas;
+    this.ring = new Ring(view);
+    canvas.addEventListener("pointerleave", () => !this.sizing && this.ring.hide());
     // In the capturing phase, so that the camera stays where it is while a line is drawn.
     canvas.addEventListener("pointerdown", (e) => this.begin(e), { capture: true });
     canvas.addEventListener("pointermove", (e) => this.move(e), { capture: true });
@@ -56,23 +72,36 @@ export class Pen {
   private begin(e: PointerEvent) {
     if (!this.settings().on || e.button !== 0 || this.down) return;
     const hit = this.view.picker.pick(e.clientX, e.clientY);
+    if (hit && (e.ctrlKey || e.metaKey)) return this.beginSizing(e, hit);
     if (!hit && !this.view.picker.isNear(e.clientX, e.clientY, beside)) return; // far from the cloth the camera turns
     e.stopImmediatePropagation();
     this.view.canvas.setPointerCapture(e.pointerId);
     this.down = true;
-    this.hits = hit ? [hit] : [];
+    this.hits = [];
     this.pressures = [];
     this.feel(e);
+    if (hit) this.take(hit);
     this.first = this.last = [e.clientX, e.clientY];
+  }
+
+  private beginSizing(e: PointerEvent, at: Hit) {
+    e.stopImmediatePropagation();
+    this.view.canvas.setPointerCapture(e.pointerId);
+    this.sizing = { x: e.clientX, at };
+  }
+
+  private take(hit: Hit) {
+    this.hits.push(hit);
+    this.pressures.push(this.pressure);
   }
 
   private add(x: number, y: number) {
     const hit = this.view.picker.pick(x, y),
       before = this.hits[this.hits.length - 1];
     if (!hit) return;
-    if (!before) return void this.hits.push(hit); // it came from beside the cloth
+    if (!before) return this.take(hit); // it came from beside the cloth
     const far = hit.shown.distanceTo(before.shown) / this.view.size;
-    if (far >= spacing && far <= longestJump) this.hits.push(hit);
+    if (far >= spacing && far <= longestJump) this.take(hit);
   }
 
   private addTo(x: number, y: number, from: [number, number]) {
@@ -83,15 +112,39 @@ export class Pen {
 
   /** A mouse has no pressure, and a finger none that means anything. */
   private feel(e: PointerEvent) {
-    if (e.pointerType === "pen" && e.pressure > 0) this.pressures.push(e.pressure);
+    this.pressure = e.pointerType === "pen" ? e.pressure : 0;
+    if (this.pressure > 0) this.hearer.feels();
+  }
+
+  /** Shows how wide it draws, where it is. */
+  private showRing(hit: Hit | null, says = false) {
+    const { on, width, isValley } = this.settings();
+    if (on && hit) this.ring.show(hit, width, says ? `${Math.round(1000 * width)} mm` : "", isValley);
+    else this.ring.hide();
+  }
+
+  /** After a change of its settings. `says`: tells how wide it is now. */
+  follow(says = false) {
+    const hit = this.last && !this.down ? this.view.picker.pick(...this.last) : null;
+    this.showRing(this.sizing?.at ?? hit, says || this.sizing !== null);
+  }
+
+  private hover(e: PointerEvent) {
+    if (!this.settings().on || e.buttons !== 0) return this.ring.hide();
+    this.last = [e.clientX, e.clientY];
+    this.follow();
   }
 
   private move(e: PointerEvent) {
-    if (!this.down) return;
+    if (this.sizing) {
+      e.stopImmediatePropagation();
+      return this.hearer.sized(Math.exp((e.clientX - this.sizing.x) / forSize), false);
+    }
+    if (!this.down) return this.hover(e);
     e.stopImmediatePropagation();
     this.feel(e);
     if (e.shiftKey) {
-      this.hits.length = Math.min(this.hits.length, 1);
+      this.hits.length = this.pressures.length = Math.min(this.hits.length, 1);
       this.addTo(e.clientX, e.clientY, this.first!);
     } else {
       for (const place of e.getCoalescedEvents?.() ?? [e]) {
@@ -102,7 +155,8 @@ export class Pen {
     this.last = [e.clientX, e.clientY];
     if (this.hits.length < 2) return;
     const { width, colour } = this.settings();
-    this.view.showBand(this.isClosed() ? [...this.hits, this.hits[0]] : this.hits, width, colour);
+    this.view.showBand(this.isClosed() ? [...this.hits, this.hits[0]] : this.snapped(e), width, colour);
+    this.showRing(this.hits[this.hits.length - 1]);
   }
 
   private length() {
@@ -116,23 +170,54 @@ export class Pen {
     return gap < 0.03 * this.view.size && this.length() > 8 * gap && this.length() > 0.15 * this.view.size;
   }
 
-  /** A line that ends just before a border is meant to reach it. */
-  private reachBorders() {
-    const reach = (end: Hit, before: Hit) =>
-      this.view.picker.borderAhead(
-        end,
-        before,
-        Math.min(short * this.view.picker.lengthOfPixel(end.shown), this.settings().width / 2),
-      );
-    const n = this.hits.length,
-      back = Math.min(n - 1, 4);
-    const last = reach(this.hits[n - 1], this.hits[n - 1 - back]),
-      first = reach(this.hits[0], this.hits[back]);
-    if (last) this.hits.push(last);
-    if (first) this.hits.unshift(first);
+  /** The line as its ends are meant: one that lies by a seam lies on it, and one just before a border reaches it.
+   *  With Alt they stay where they are. */
+  private snapped(e: PointerEvent): Hit[] {
+    if (e.altKey || this.hits.length < 3) return this.hits;
+    return this.reached(this.reached(this.hits).reverse()).reverse();
+  }
+
+  private reached(hits: Hit[]): Hit[] {
+    const end = hits[hits.length - 1],
+      before = hits[Math.max(0, hits.length - 5)],
+      pixel = this.view.picker.lengthOfPixel(end.shown);
+    const near = nearSeam * pixel,
+      onSeam = this.view.picker.seamBeside(end, before, near);
+    if (onSeam) {
+      // What went past the seam, or to just before it, is not drawn.
+      let n = hits.length;
+      while (n > 2 && hits[n - 1].shown.distanceTo(onSeam.shown) < near) --n;
+      return [...hits.slice(0, n), onSeam];
+    }
+    const onBorder = this.view.picker.borderAhead(
+      end,
+      before,
+      Math.min(short * pixel, this.settings().width / 2),
+    );
+    return onBorder ? [...hits, onBorder] : [...hits];
+  }
+
+  /** At each of `hits`, which are those of the pen with other ends: evened out; none: none was felt. */
+  private pressuresAt(hits: Hit[]): number[] | undefined {
+    if (!this.pressures.some((p) => p > 0)) return undefined;
+    const even = this.pressures.map((_, i) => {
+      const near = this.pressures.slice(Math.max(0, i - evened), i + evened + 1).filter((p) => p > 0);
+      return near.length ? near.reduce((sum, p) => sum + p, 0) / near.length : 0.5;
+    });
+    const own = hits.map((hit) => this.hits.indexOf(hit)),
+      first = own.find((i) => i >= 0)!,
+      last = own.filter((i) => i >= 0).pop()!;
+    return own.map((i, k) => even[i >= 0 ? i : k < hits.length / 2 ? first : last]);
   }
 
   private end(e: PointerEvent) {
+    if (this.sizing) {
+      e.stopImmediatePropagation();
+      this.view.canvas.releasePointerCapture(e.pointerId);
+      const factor = Math.exp((e.clientX - this.sizing.x) / forSize);
+      this.sizing = null;
+      return this.hearer.sized(factor, true);
+    }
     if (!this.down) return;
     e.stopImmediatePropagation();
     this.down = false;
@@ -141,16 +226,19 @@ export class Pen {
       this.drop();
       return this.hearer.tooShort();
     }
-    const isClosed = this.isClosed();
-    if (!isClosed) this.reachBorders();
-    const felt = this.pressures,
-      pressure = felt.length > 0 ? felt.reduce((sum, p) => sum + p, 0) / felt.length : undefined;
-    this.hearer.drawn({ points: this.hits.map((h) => h.undrawn.toArray()), closed: isClosed, pressure });
+    const closed = this.isClosed(),
+      hits = closed ? this.hits : this.snapped(e);
+    this.hearer.drawn({
+      points: hits.map((h) => h.undrawn.toArray()),
+      closed,
+      pressures: this.pressuresAt(hits),
+    });
   }
 
   /** Lets the line go. */
   drop() {
     this.down = false;
+    this.sizing = null;
     this.hits = [];
     this.view.showBand([], 0, 0);
   }

@@ -2,7 +2,7 @@
 // What of the cloth is pointed at: places of the window and of the cloth, by trees of its faces.
 import * as THREE from "three";
 import { MeshBVH } from "three-mesh-bvh";
-import { type Frame } from "./frame";
+import { type Frame, seamEdges } from "./frame";
 
 export interface Hit {
   shown: THREE.Vector3;
@@ -40,6 +40,7 @@ export class Picker {
   private bodyTree?: MeshBVH;
   private undrawnTree?: MeshBVH; // of the present frame, where it was asked for
   private borders?: [number, number][]; // likewise: edges of one face
+  private seams?: [number, number][]; // likewise
   private isOld = false; // things have moved since the trees were fitted
   private soon = 0;
 
@@ -47,7 +48,7 @@ export class Picker {
 
   /** Another cloth is seen. */
   forgetCloth() {
-    this.clothTree = this.undrawnTree = this.borders = undefined;
+    this.clothTree = this.undrawnTree = this.borders = this.seams = undefined;
     this.fitSoon();
   }
 
@@ -143,20 +144,44 @@ export class Picker {
 
   /** The border of the cloth that a line runs towards at its end, within so much of it [m]; null: none. */
   borderAhead(end: Hit, before: Hit, most: number): Hit | null {
-    if (!this.of.frame) return null;
-    const { positions, undrawn } = this.of.frame,
-      way = end.shown.clone().sub(before.shown).normalize();
-    const at = (list: Float32Array, v: number) => new THREE.Vector3().fromArray(list, 3 * v);
+    this.borders ??= borderEdges(this.of.frame!.faces);
+    const way = end.shown.clone().sub(before.shown).normalize();
+    return this.nearestOf(
+      this.borders,
+      end,
+      most,
+      (on, far) => on.clone().sub(end.shown).dot(way) >= 0.5 * far,
+    );
+  }
+
+  /** The seam that a line meets at its end, or has just crossed, within so much of it [m]; one that it runs along is
+   *  none. null: none. */
+  seamBeside(end: Hit, before: Hit, most: number): Hit | null {
+    this.seams ??= seamEdges(this.of.frame!);
+    const way = end.shown.clone().sub(before.shown).normalize();
+    return this.nearestOf(this.seams, end, most, (_on, _far, along) => Math.abs(way.dot(along)) < 0.85);
+  }
+
+  /** The nearest place of edges to a hit, of those that are meant. */
+  private nearestOf(
+    edges: [number, number][],
+    end: Hit,
+    most: number,
+    isMeant: (on: THREE.Vector3, far: number, along: THREE.Vector3) => boolean,
+  ): Hit | null {
+    const { positions, undrawn } = this.of.frame!,
+      at = (list: Float32Array, v: number) => new THREE.Vector3().fromArray(list, 3 * v);
     const on = new THREE.Vector3(),
+      along = new THREE.Vector3(),
       piece = new THREE.Line3();
     let best: Hit | null = null,
       least = most;
-    for (const [a, b] of (this.borders ??= borderEdges(this.of.frame.faces))) {
+    for (const [a, b] of edges) {
       piece.set(at(positions, a), at(positions, b));
       const share = piece.closestPointToPointParameter(end.shown, true);
       piece.at(share, on);
       const far = on.distanceTo(end.shown);
-      if (far > least || on.clone().sub(end.shown).dot(way) < 0.5 * far) continue;
+      if (far > least || !isMeant(on, far, piece.delta(along).normalize())) continue;
       least = far;
       best = {
         shown: on.clone(),

@@ -95,7 +95,7 @@ function Views({ page, studio }: { page: Page; studio?: Studio }) {
       <button
         class="small"
         aria-pressed={seen.lines}
-        title="Lines (L)"
+        title="Lines: seen once more; each is seen while it is drawn, chosen or pointed at (L)"
         onClick={() => studio?.toggle("lines")}
       >
         Lines
@@ -108,6 +108,14 @@ function Views({ page, studio }: { page: Page; studio?: Studio }) {
         onClick={() => void studio?.showTangles()}
       >
         Tangles
+      </button>
+      <button
+        class="small"
+        aria-pressed={seen.clay}
+        title="The shape alone, as of clay (C)"
+        onClick={() => studio?.toggle("clay")}
+      >
+        Clay
       </button>
       <button
         class="small"

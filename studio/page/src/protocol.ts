@@ -40,11 +40,13 @@ export interface Status {
 export interface GalleryItem {
   name: string;
   title: string;
+  picture?: string; // a data URL
 }
 export interface Verdict {
   name: string;
   verdict: "held" | "pressed" | "strutted" | "lowered" | "may_hold" | "cannot_hold" | "not_known";
   words: string;
+  at?: Vector; // the line's upper end
 }
 export interface Done {
   told?: string[];

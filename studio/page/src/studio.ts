@@ -2,16 +2,35 @@
 // What the page does: each method asks the program for something, and shows what it answers.
 import { Vector3 } from "three";
 import type { ClothActions, ClothMap } from "./cloth";
+import { titleOf } from "./fabrics";
 import { Kind, readFrame } from "./frame";
 import { Hand } from "./hand";
 import { Handles } from "./handles";
 import { LineChanges } from "./line_changes";
 import { ownWidth } from "./lines";
 import type { OpenWords } from "./open";
-import { isIdle, isPen, mayDraw, type Page, type Tool } from "./page";
+import { type Draft, type Feel, isIdle, isPen, mayDraw, type Page, type Tool, type Words } from "./page";
 import { type Drawn, Pen } from "./pen";
 import { type Done, type Hearer, Program, type Vector } from "./protocol";
+import { recordTurn } from "./turn";
 import { type Seen, View } from "./view";
+
+/** A draft of another size: the whole fold, in whole millimetres. */
+function resized(draft: Draft, factor: number): Draft {
+  const scaled = (length: number, least: number, most: number) =>
+    Math.min(most, Math.max(least, Math.round(length * factor * 1000) / 1000));
+  return {
+    ...draft,
+    height: scaled(draft.height, 0.002, 0.1),
+    width: draft.width === null ? null : scaled(draft.width, 0.01, 0.3),
+  };
+}
+
+const bends: Record<Feel, number> = { even: 1, soft: 0.5, firm: 2, none: 0 };
+
+/** The height at each point of a line over that which is set: 1 where the pen is held as usual. */
+const shares = (pressures: number[], feel: Feel) =>
+  pressures.map((p) => Math.min(2, Math.max(0.2, (2 * p) ** bends[feel])));
 
 const sentences = (...all: (string | string[] | undefined)[]) => all.flat().filter(Boolean).join("\n");
 
@@ -36,6 +55,7 @@ export class Studio {
     pace: (speed) => this.page.set({ speed }),
   };
   private playsAgain = false; // once it has paused
+  private sizedFrom: Draft | null = null; // the draft before the drag that changes its size
 
   constructor(
     private page: Page,
@@ -46,6 +66,8 @@ export class Studio {
     this.program = new Program(token, this.hearer());
     this.lines = new LineChanges(page, this);
     this.pen = new Pen(this.view, () => this.penSettings(), {
+      feels: () => page.now().feels || page.set({ feels: true }),
+      sized: (factor, isOver) => this.dragSize(factor, isOver),
       drawn: (line) => void this.draw(line),
       tooShort: () =>
         this.say("That was too short for a line: hold the button down and draw over the cloth."),
@@ -61,6 +83,7 @@ export class Studio {
         void this.program.ask("show");
       },
     });
+    this.followPointer(canvas);
     this.hand = new Hand(this.view, () => this.handDoes(), {
       // What the program does not want to hear any more, as the cloth has just been paused, is no fault.
       pulls: (grip) => void this.program.ask("pull", grip ?? {}).catch(() => undefined),
@@ -70,6 +93,22 @@ export class Studio {
         else this.say("There is no vertex of the cloth within that loop: draw it larger, or click.");
       },
     });
+  }
+
+  /** Lines and pens show where the pointer is, once a picture. */
+  private followPointer(canvas: HTMLCanvasElement) {
+    let at: PointerEvent | null = null;
+    canvas.addEventListener("pointermove", (e) => {
+      if (at === null) requestAnimationFrame(() => follow());
+      at = e;
+    });
+    canvas.addEventListener("pointerleave", () => this.view.marks.point(null));
+    const follow = () => {
+      const { buttons, clientX, clientY } = at!;
+      at = null;
+      if (buttons === 0 && this.page.now().busy !== "play")
+        this.view.marks.point(this.view.marks.lineAt(clientX, clientY));
+    };
   }
 
   private hearer(): Hearer {
@@ -113,12 +152,14 @@ export class Studio {
     page.set({ frames: page.now().frames + 1 });
   }
 
-  say(text: string, bad = false) {
-    this.page.set({ words: { text, bad } });
+  say(text: string, bad = false, more: Partial<Words> = {}) {
+    const { link } = this.page.now().words;
+    if (link) URL.revokeObjectURL(link);
+    this.page.set({ words: { text, bad, ...more } });
   }
 
   /** Asks the program; what it says against it is shown in its words. */
-  async ask(what: string, body: object = {}, then?: (done: Done) => string) {
+  async ask(what: string, body: object = {}, then?: (done: Done) => string, folder?: Words["folder"]) {
     if (this.page.now().busy === "play") this.pause(); // what is asked then wants it still
     try {
       const done = await this.program.ask(what, body);
@@ -127,6 +168,8 @@ export class Studio {
           then?.(done),
           (done.told ?? []).map((t) => `Note: ${t}`),
         ),
+        false,
+        { folder },
       );
       return true;
     } catch (e) {
@@ -139,7 +182,7 @@ export class Studio {
   /** Asks for what takes long. */
   private async work(busy: "drape" | "keep" | "give", body: object, then: (done: Done) => string) {
     this.page.set({ busy });
-    await this.ask(busy, body, then);
+    await this.ask(busy, body, then, busy === "give" ? "give" : undefined);
     this.page.set({ busy: "", progress: undefined });
   }
 
@@ -150,16 +193,44 @@ export class Studio {
       on: isPen(tool) && !busy,
       colour: tool === "valley" ? valley : ridge,
       width: draft.width ?? ownWidth(draft.height),
+      isValley: tool === "valley",
     };
   }
 
-  private async draw({ points, closed, pressure = 0.5 }: Drawn) {
+  /** Another size of the pen, by a key. */
+  resize(factor: number) {
+    const { draft, tool } = this.page.now(),
+      next = resized(draft, factor);
+    // A step is a millimetre at least.
+    if (next.height === draft.height)
+      next.height = resized({ ...draft, height: draft.height + Math.sign(factor - 1) / 1000 }, 1).height;
+    this.page.set({ draft: next });
+    if (isPen(tool)) this.pen.follow(true);
+  }
+
+  private dragSize(factor: number, isOver: boolean) {
+    this.sizedFrom ??= this.page.now().draft;
+    this.page.set({ draft: resized(this.sizedFrom, factor) });
+    if (isOver) this.sizedFrom = null;
+    this.pen.follow();
+  }
+
+  private async draw({ points, closed, pressures = [] }: Drawn) {
     const { tool, draft, both, status } = this.page.now(),
-      place = status!.lines.length;
-    const size = draft.height * Math.min(2, Math.max(0.2, 2 * pressure)),
-      height = tool === "valley" ? -size : size;
-    const width = draft.width === null ? {} : { width: draft.width };
-    if (await this.ask("draw", { height, points, closed, ...width, ...(both ? { mirror: true } : {}) }))
+      place = status!.lines.length,
+      size = tool === "valley" ? -draft.height : draft.height;
+    const felt = shares(pressures, draft.feel),
+      mean = felt.length ? felt.reduce((sum, share) => sum + share, 0) / felt.length : 1;
+    const varies = felt.length > 0 && Math.max(...felt) > 1.15 * Math.min(...felt);
+    const body = {
+      height: size * mean,
+      points,
+      closed,
+      ...(varies && { heights: felt.map((share) => size * share) }),
+      ...(draft.width !== null && { width: draft.width }),
+      ...(both && { mirror: true }),
+    };
+    if (await this.ask("draw", body))
       this.page.set({ chosen: place }); // its sliders are open
     else this.pen.drop();
   }
@@ -214,7 +285,6 @@ export class Studio {
   /** Goes on with what was kept as it is; `drapes`: and lets the cloth come to rest. */
   accept(drapes: boolean) {
     this.page.set({ verdict: undefined });
-    this.view.colour(null);
     if (drapes) void this.drape();
   }
 
@@ -296,6 +366,7 @@ export class Studio {
       "save",
       {},
       (done) => `Saved in ${this.page.now().status?.title}: ${(done.written ?? []).join(", ")}.`,
+      "project",
     );
   }
 
@@ -303,14 +374,43 @@ export class Studio {
     void this.work("give", { as }, (done) => `Written: ${done.file}`);
   }
 
-  takePicture() {
+  /** Shows the folder of what was written, in whatever shows folders here. */
+  async openFolder(of: "give" | "project") {
+    const { words } = this.page.now();
+    try {
+      await this.program.ask("folder", { of });
+    } catch (e) {
+      this.page.set({ words: { ...words, text: (e as Error).message, bad: true } });
+    }
+  }
+
+  async takePicture() {
     const name = `${this.page.now().status!.title}.png`;
-    this.view.savePicture(name);
-    this.say(`The picture goes to the browser's downloads: ${name}.`);
+    this.download(await this.view.picture(), name, "The picture");
+  }
+
+  /** A round about the cloth as a GIF that goes on for ever. */
+  async takeTurn() {
+    const name = `${this.page.now().status!.title}-turn.gif`;
+    this.say("The camera goes round the cloth …");
+    this.download(new Blob([await recordTurn(this.view)], { type: "image/gif" }), name, "The turn");
+  }
+
+  private download(made: Blob | null, name: string, what: string) {
+    if (!made) return this.say("The browser made no picture of it.", true);
+    const link = document.createElement("a");
+    link.href = URL.createObjectURL(made);
+    link.download = name;
+    link.click();
+    this.say(`${what} goes to the browser's downloads: ${name}.`, false, { link: link.href });
   }
 
   setFabric(name: string) {
-    void this.ask("fabric", { name }, () => `It is made of ${name} now; Drape or Play shows how that hangs.`);
+    void this.ask(
+      "fabric",
+      { name },
+      () => `It is made of ${titleOf(name).toLowerCase()} now; Drape or Play shows how that hangs.`,
+    );
   }
 
   async open({ item, files, unit, up }: OpenWords) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Above the picture: pens, the next line's size, undo and files.
 import { mm, ownWidth, Slider } from "./lines";
-import { isIdle, type Page } from "./page";
+import { type Feel, isIdle, type Page } from "./page";
 import type { Studio } from "./studio";
 
 const tools = [
@@ -13,13 +13,14 @@ const tools = [
 
 /** How the next line will be drawn. */
 function Draft({ page }: { page: Page }) {
-  const { draft, both } = page.now(),
+  const { draft, both, feels } = page.now(),
     set = (change: Partial<typeof draft>) => page.set({ draft: { ...page.now().draft, ...change } });
   return (
     <>
       <div class="group">
         <Slider
           label="New height"
+          short="Height"
           value={draft.height * 1000}
           min={2}
           max={100}
@@ -31,6 +32,7 @@ function Draft({ page }: { page: Page }) {
       <div class="group">
         <Slider
           label="New width"
+          short="Width"
           value={(draft.width ?? ownWidth(draft.height)) * 1000}
           min={10}
           max={300}
@@ -44,6 +46,21 @@ function Draft({ page }: { page: Page }) {
           </button>
         )}
       </div>
+      {feels && (
+        <div class="group">
+          <select
+            aria-label="How the height follows the pen's pressure"
+            title="How the height follows the pen's pressure"
+            value={draft.feel}
+            onChange={(e) => set({ feel: e.currentTarget.value as Feel })}
+          >
+            <option value="even">Pressure</option>
+            <option value="soft">Soft</option>
+            <option value="firm">Firm</option>
+            <option value="none">Not felt</option>
+          </select>
+        </div>
+      )}
       <div class="group">
         <button
           aria-pressed={both}

@@ -2,16 +2,16 @@
 // What is seen: cloth, body, lines and pins, and the camera that looks at them. It draws when something has changed.
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
-import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
-import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
-import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
+import { clayTexture } from "./clay";
 import { type Frame, Kind } from "./frame";
+import { Marks } from "./marks";
 import { type Hit, Picker } from "./picker";
 
 export interface Seen {
   body: boolean;
   wire: boolean;
   lines: boolean;
+  clay: boolean; // the cloth without its colour, by a light that shows its shape alone
 }
 export type Side = "front" | "back" | "right";
 
@@ -57,17 +57,17 @@ export class View {
   readonly cloth: THREE.Mesh;
   readonly body: THREE.Mesh;
   readonly picker = new Picker(this);
+  readonly marks = new Marks(this);
   frame?: Frame; // the cloth's, as it lies now
   colours = light;
   size = 1; // the cloth's diagonal [m]
-  seen: Seen = { body: true, wire: false, lines: true };
+  seen: Seen = { body: true, wire: false, lines: true, clay: false };
   private scene = new THREE.Scene();
   private key = new THREE.DirectionalLight();
   private fill = new THREE.DirectionalLight(); // so that no side is black
   private wire: THREE.LineSegments;
   private band: THREE.Mesh;
   private pins: THREE.Points;
-  private lines = new THREE.Group();
   private handles: THREE.Points;
   private plane: THREE.Mesh;
   private rope: THREE.Line;
@@ -79,8 +79,9 @@ export class View {
   private isCoarse = false;
   private fineSoon = 0;
   private framed = false;
-  private kinds: number[] = [];
-  private chosen = -1;
+  private isRecording = false;
+  private fabric: THREE.MeshStandardMaterial;
+  private clay: THREE.MeshMatcapMaterial;
 
   constructor(readonly canvas: HTMLCanvasElement) {
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
@@ -94,15 +95,10 @@ export class View {
     this.controls.addEventListener("change", () => this.draw());
     const mesh = (material: THREE.Material) => new THREE.Mesh(new THREE.BufferGeometry(), material);
     const side = THREE.DoubleSide;
-    this.cloth = mesh(
-      new THREE.MeshStandardMaterial({
-        roughness: 0.92,
-        side,
-        polygonOffset: true,
-        polygonOffsetFactor: 1,
-        polygonOffsetUnits: 1,
-      }),
-    );
+    const behind = { side, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 };
+    this.fabric = new THREE.MeshStandardMaterial({ roughness: 0.92, ...behind });
+    this.clay = new THREE.MeshMatcapMaterial({ matcap: clayTexture(), ...behind });
+    this.cloth = mesh(this.fabric);
     this.body = mesh(
       new THREE.MeshStandardMaterial({
         roughness: 0.75,
@@ -137,7 +133,15 @@ export class View {
     for (const solid of [this.cloth, this.body]) solid.castShadow = solid.receiveShadow = true;
     this.scene.add(this.handles, this.plane, this.rope);
     this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8d8478, 0.85), this.key, this.fill, this.key.target);
-    this.scene.add(this.cloth, this.body, this.wire, this.lines, this.pins, this.band);
+    this.scene.add(
+      this.cloth,
+      this.body,
+      this.wire,
+      this.marks.group,
+      this.marks.signs,
+      this.pins,
+      this.band,
+    );
     const scheme = matchMedia("(prefers-color-scheme: dark)");
     scheme.addEventListener("change", () => this.paint(scheme.matches));
     this.paint(scheme.matches);
@@ -148,8 +152,7 @@ export class View {
   private paint(isDark: boolean) {
     this.colours = isDark ? dark : light;
     this.scene.background = new THREE.Color(this.colours.ground);
-    const cloth = this.cloth.material as THREE.MeshStandardMaterial;
-    if (!cloth.vertexColors) cloth.color.set(this.colours.cloth);
+    if (!this.fabric.vertexColors) this.fabric.color.set(this.colours.cloth);
     (this.body.material as THREE.MeshStandardMaterial).color.set(this.colours.body);
     (this.wire.material as THREE.LineBasicMaterial).color.set(this.colours.wire);
     for (const dots of [this.pins, this.handles])
@@ -159,13 +162,13 @@ export class View {
       this.colours.valley,
     );
     (this.rope.material as THREE.LineBasicMaterial).color.set(this.colours.ridge);
-    this.showLines();
+    this.marks.renew();
     this.draw();
   }
 
   private fit() {
     const { clientWidth: w, clientHeight: h } = this.canvas.parentElement!;
-    if (!w || !h) return;
+    if (!w || !h || this.isRecording) return;
     this.renderer.setSize(w, h, false);
     this.camera.aspect = w / h;
     this.camera.updateProjectionMatrix();
@@ -179,6 +182,7 @@ export class View {
     this.asked = true;
     requestAnimationFrame(() => {
       this.asked = false;
+      if (this.isRecording) return;
       this.render(this.takes > slow);
       clearTimeout(this.fineSoon);
       if (this.isCoarse || this.timed !== this.frame)
@@ -188,6 +192,7 @@ export class View {
 
   /** Nobody waits: draws with all pixels, and takes the time that this takes. */
   private renderFine() {
+    if (this.isRecording) return;
     const start = performance.now(),
       gl = this.renderer.getContext();
     this.render(false);
@@ -262,7 +267,7 @@ export class View {
     this.cloth.geometry.computeBoundingBox();
     this.size = this.cloth.geometry.boundingBox!.getSize(new THREE.Vector3()).length();
     this.showWire();
-    this.showLines();
+    this.marks.renew();
     this.showPins();
     if (!this.framed) this.look("front");
     this.framed = true;
@@ -271,11 +276,12 @@ export class View {
 
   /** Paints the cloth; null: its own colour. */
   colour(colours: Uint8Array | null) {
-    const material = this.cloth.material as THREE.MeshStandardMaterial;
+    const material = this.fabric;
     const fits = colours !== null && colours.length === this.frame?.positions.length;
     if (material.vertexColors !== fits) material.needsUpdate = true;
     material.vertexColors = fits;
     material.color.set(fits ? 0xffffff : this.colours.cloth);
+    this.cloth.material = this.seen.clay && !fits ? this.clay : material;
     [this.key.intensity, this.fill.intensity] = fits ? [1, 2] : [2.7, 0.7]; // colours are read by even light
     if (fits) {
       const one = new THREE.Color(),
@@ -304,7 +310,7 @@ export class View {
     this.cloth.geometry.computeVertexNormals();
     this.cloth.geometry.computeBoundingSphere();
     this.showWire();
-    this.showLines();
+    this.marks.clear();
     this.showPins();
     this.draw();
   }
@@ -322,18 +328,12 @@ export class View {
   }
 
   see(seen: Seen) {
+    if (seen.lines && !this.seen.lines) this.marks.renew(); // they are asked for: all are seen for a while
     this.seen = seen;
     this.body.visible = seen.body;
-    this.lines.visible = seen.lines;
+    this.marks.group.visible = seen.lines;
+    this.cloth.material = seen.clay && !this.fabric.vertexColors ? this.clay : this.fabric;
     this.showWire();
-    this.draw();
-  }
-
-  /** Whether each line that is shown is a ridge (1) or a valley (-1), and which one is chosen. */
-  mark(kinds: number[], chosen: number) {
-    this.kinds = kinds;
-    this.chosen = chosen;
-    this.showLines();
     this.draw();
   }
 
@@ -351,43 +351,6 @@ export class View {
     this.pins.geometry.dispose();
     this.pins.geometry = new THREE.BufferGeometry();
     this.pins.geometry.setAttribute("position", new THREE.BufferAttribute(points, 3));
-  }
-
-  private showLines() {
-    for (const child of [...this.lines.children] as LineSegments2[]) {
-      child.geometry.dispose();
-      child.material.dispose();
-      this.lines.remove(child);
-    }
-    if (!this.frame || this.frame.edges.length === 0) return;
-    const { positions, edges } = this.frame;
-    const normals = this.cloth.geometry.getAttribute("normal").array;
-    const ends = new Map<number, number[]>();
-    for (let e = 0; e < edges.length; e += 3) {
-      const line = edges[e + 2] < 0 ? -1 : edges[e + 2];
-      if (!ends.has(line)) ends.set(line, []);
-      for (const v of [edges[e], edges[e + 1]])
-        for (let k = 0; k < 3; ++k)
-          ends.get(line)!.push(positions[3 * v + k] + 0.5 * lift * this.size * normals[3 * v + k]);
-    }
-    for (const [line, points] of ends) {
-      const geometry = new LineSegmentsGeometry();
-      geometry.setPositions(points);
-      const colour = line < 0 ? 0x8a8a8a : this.kinds[line] < 0 ? this.colours.valley : this.colours.ridge;
-      const isChosen = line >= 0 && line === this.chosen;
-      this.lines.add(
-        new LineSegments2(
-          geometry,
-          new LineMaterial({
-            color: colour,
-            linewidth: isChosen ? 4 : 1.5,
-            dashed: !isChosen, // a thin stitch: the fold is to be seen, not its line
-            dashSize: 0.012 * this.size,
-            gapSize: 0.008 * this.size,
-          }),
-        ).computeLineDistances(),
-      );
-    }
   }
 
   /** Dots by which the chosen line is dragged. */
@@ -429,21 +392,61 @@ export class View {
     this.draw();
   }
 
-  /** What is seen, without lines, pins and dots and twice as fine, goes to the browser's downloads. */
-  savePicture(name: string) {
-    const tools = [this.lines, this.pins, this.handles, this.rope, this.plane, this.band],
+  /** Draws by `how` without lines, pins and dots, and then all as before. */
+  private async withoutTools<T>(how: () => Promise<T>): Promise<T> {
+    const tools = [
+        this.marks.group,
+        this.marks.signs,
+        this.pins,
+        this.handles,
+        this.rope,
+        this.plane,
+        this.band,
+      ],
       seen = tools.map((t) => t.visible);
     for (const tool of tools) tool.visible = false;
-    this.renderWith(Math.max(2, devicePixelRatio), true); // what was drawn before is gone from the canvas
-    this.canvas.toBlob((picture) => {
+    try {
+      return await how();
+    } finally {
       tools.forEach((tool, i) => (tool.visible = seen[i]));
       this.draw();
-      if (!picture) return;
-      const link = document.createElement("a");
-      link.href = URL.createObjectURL(picture);
-      link.download = name;
-      link.click();
-      setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+    }
+  }
+
+  /** What is seen, twice as fine, as PNG. */
+  picture(): Promise<Blob | null> {
+    return this.withoutTools(() => {
+      this.renderWith(Math.max(2, devicePixelRatio), true); // what was drawn before is gone from the canvas
+      return new Promise((take) => this.canvas.toBlob(take));
+    });
+  }
+
+  /** Squares of so many pixels of what is seen, from so many places once round it. Nothing else is drawn meanwhile. */
+  round(count: number, side: number, take: (square: HTMLCanvasElement) => void): Promise<void> {
+    const from = this.camera.position.clone();
+    return this.withoutTools(async () => {
+      this.isRecording = true;
+      try {
+        this.renderer.setPixelRatio(1);
+        this.renderer.setSize(side, side, false);
+        this.camera.aspect = 1;
+        this.camera.updateProjectionMatrix();
+        for (let i = 0; i < count; ++i) {
+          const way = from.clone().sub(this.controls.target);
+          way.applyAxisAngle(new THREE.Vector3(0, 1, 0), (-2 * Math.PI * i) / count);
+          this.camera.position.copy(this.controls.target).add(way);
+          this.camera.lookAt(this.controls.target);
+          this.renderWith(1, true);
+          take(this.canvas);
+          await new Promise((soon) => setTimeout(soon)); // the page stays alive
+        }
+      } finally {
+        this.isRecording = false;
+        this.camera.position.copy(from);
+        this.camera.lookAt(this.controls.target);
+        this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+        this.fit();
+      }
     });
   }
 

@@ -176,5 +176,35 @@ TEST_CASE("render_scene: a preview highlights the changed triangles, dots new ve
   CHECK(count(scene.lines, colours.edge) > report.changed_faces.size());
 }
 
+TEST_CASE("render_scene: a preview of a fine mesh has thin edges, so that its triangles are seen") {
+  struct Widths {
+    double edge = 0, dot = 0;  // in tubes of the picture
+  };
+  const auto widths = [](int n) {
+    Mesh mesh = grid_mesh(n);
+    for (Vertex v : mesh.vertices())
+      mesh.point(v) = Point(mesh.point(v).x() / n, mesh.point(v).y() / n, 0);  // the same square for each
+    const std::size_t before = mesh.num_vertices();
+    geometry::Stroke ridge{"", 0.01, {Point(0.111, 0.233, 0), Point(0.67, 0.304, 0)}, false, {}};
+    const auto report = geometry::insert_along_stroke(mesh, ridge, 0).report;
+    Widths widths;
+    for (const auto& line : io::preview_scene(mesh, report.changed_faces, before, {0.01}).lines) {
+      if (line.points.size() == 1) widths.dot = line.width;
+      if (line.colour == io::PreviewColours().edge) widths.edge = line.width;
+    }
+    return widths;
+  };
+  const Widths coarse = widths(8), fine = widths(60), finest = widths(400);
+  CHECK(coarse.edge == 0.35);
+  CHECK(coarse.dot == 1.6);
+  CHECK(fine.edge < 0.35);
+  // Of a triangle's area 4 r / (sqrt(3) / 2 a) is under its edges, where a is a side, here 10 tubes long.
+  CHECK(fine.edge * 4 / 0.87 / 10 < 0.2);
+  CHECK(fine.edge > 0.08);
+  CHECK(fine.dot < 1.6);
+  CHECK(finest.edge == 0);  // left out
+  CHECK(finest.dot == 0.3);
+}
+
 }  // namespace
 }  // namespace furrow::tests
