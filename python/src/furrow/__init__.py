@@ -155,7 +155,7 @@ globals().update({job: _function(job) for job in _JOBS})
 
 
 def read_mesh(path, *, unit=None, up=None):
-    """The mesh of a file, of a format that `furrow info --help` lists. unit: m, cm, mm, inch; up: y, z (default m, y, or as noted)."""
+    """The mesh of a file, of any format of `furrow info --help`. unit: m, cm, mm, inch; up: y, z (as noted, or m, y)."""
     return _furrow.read_mesh(path, {"unit": unit, "up": up}, _warner(level=3))
 
 
