@@ -72,7 +72,7 @@ using Progress = std::function<bool(double)>;
 
 /// watch: null: parts may fall.
 Gone go(const DrapePlan& plan, std::unique_ptr<GarmentMaker>& maker, WayRecorder& way, const FallWatch* watch,
-        const Progress& progress, const Context& context) {
+        const Progress& progress) {
   Gone gone;
   std::unique_ptr<GarmentMaker> below;
   WayToRest to_rest(plan.options.settle.tolerance);
@@ -103,7 +103,7 @@ Gone go_with_parts(const DrapePlan& plan, std::unique_ptr<GarmentMaker>& maker,
   for (bool watches = plan.settings.loose != LooseUse::fall;;) {
     way.emplace(plan.settings.animation, plan.scene.subdivide, context);
     try {
-      gone = go(plan, maker, *way, watches ? &watch : nullptr, progress, context);
+      gone = go(plan, maker, *way, watches ? &watch : nullptr, progress);
     } catch (const physics::Cancelled&) {
       if (!maker_before) throw;
       maker = std::move(maker_before);
