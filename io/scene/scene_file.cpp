@@ -76,6 +76,10 @@ Scene read_scene(const TomlDocument& document, const std::filesystem::path& fold
       read_part(*table, part, scene);
   }
   root.finish();
+  // Folds that a body presses through each other do not iron out again.
+  const Json given = document.root->value("simulation", Json::object());
+  if (scene.body && !scene.body->frames.empty() && !given.contains("self_contact"))
+    scene.simulation.self.on = true;
   if (scene.integrator) scene.simulation.integrator = *scene.integrator;
   check_settle(scene, document);
   check_keep(scene, document);

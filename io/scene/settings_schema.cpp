@@ -331,6 +331,7 @@ const Row<Scene> rows[] = {
     {{.path = "simulation.self_contact",
       .shown_in = used_by::moving,
       .what = "`on`: cloth keeps off cloth, and no step passes through it",
+      .usual = "on where the body changes its shape, else off",
       .used = used_by::simulate,
       .flag_in = used_by::simulate},
      choice<bool>(FIELD(simulation.self.on), {{"off", false}, {"on", true}})},

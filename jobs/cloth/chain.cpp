@@ -113,7 +113,7 @@ void check_chain(const io::Scene& scene, const Mesh& mesh, const Context& contex
   };
   if (!scene.lines.empty()) refuse("lines", "lines are drawn on cloth: leave them out");
   if (scene.subdivide > 0) refuse("`subdivide`", "give its file more vertices");
-  if (scene.simulation.self.on)
+  if (scene.simulation.self.on && !(scene.body && !scene.body->frames.empty()))
     refuse("`self_contact=on`", "it has no surface that could touch: leave it out");
   if (scene.keep) refuse("`rest=keep`", "its rest lengths are those of its file: leave it out");
   require_outputs(scene.output);

@@ -236,6 +236,7 @@ physics::SimulateOptions options_of(const Run& run, io::SavedState& now, double 
   if (stop < options.seconds) options.stop_at = stop;
   options.threads = threads_of(run.scene, vertices);
   options.times = run.times;
+  options.self.on = options.self.on && !geometry::is_chain(now.file.mesh);
   return options;
 }
 

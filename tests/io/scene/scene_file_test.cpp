@@ -293,6 +293,15 @@ TEST_CASE("scene_file: a scene's faults are told with file, line, column and the
   CHECK(has(fault("[simulation]\nseconds = 1\nseconds = 2\n"), "a/s.toml:3:"));
 }
 
+TEST_CASE("scene_file: cloth keeps off cloth where the body changes its shape, unless told not to") {
+  const std::string body = "[body]\nmesh = \"b\"\n", moves = body + "frames = \"f.pc2\"\n";
+  CHECK(scene(moves).simulation.self.on);
+  CHECK(scene(moves + "[simulation]\nseconds = 1\n").simulation.self.on);
+  CHECK_FALSE(scene(moves + "[simulation]\nself_contact = \"off\"\n").simulation.self.on);
+  CHECK_FALSE(scene(body).simulation.self.on);
+  CHECK(scene(body + "[simulation]\nself_contact = \"on\"\n").simulation.self.on);
+}
+
 TEST_CASE("scene_file: a pinned loop is named, or numbered without quotes") {
   CHECK(scene("[[pins]]\nloop = 5\n").pins.at(0).loop == "5");
   CHECK(scene("[[pins]]\nloop = \"top\"\n").pins.at(0).loop == "top");

@@ -141,7 +141,7 @@ TEST_CASE("own_output: strokes, cameras and charts are known again") {
 TEST_CASE("own_output: an OBJ of another program with transferred positions is furrow's") {
   const fs::path folder = tests::empty_folder("own_transfer");
   tests::Recorder listener;
-  for (const std::string& mark : {"", "\xEF\xBB\xBF"}) {
+  for (const std::string mark : {"", "\xEF\xBB\xBF"}) {
     put(folder / "a.obj", mark + of_blender());
     CHECK_FALSE(jobs::is_own_output(folder / "a.obj"));
     jobs::TransferJob job;
