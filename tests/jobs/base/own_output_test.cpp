@@ -190,7 +190,8 @@ TEST_CASE("own_output: what is as furrow writes it, but for the mark, is not fur
   io::write_png16(folder / "b.png", {2, 1, {1, 2, 3, 4, 5, 65535}});
   unmarked("a.png", io::png_mark);
   unmarked("b.png", io::png_mark);
-  io::write_strokes(folder / "a.json", std::vector<geometry::Stroke>{{.points = {{0, 0, 0}, {1, 0, 0}}}});
+  io::write_strokes(folder / "a.json", std::vector<geometry::Stroke>{
+                                           {.name = "a", .points = {{0, 0, 0}, {1, 0, 0}}, .direction = {}}});
   unmarked("a.json", "\"generator\": \"furrow\"");
   io::write_camera(folder / "c.json", {});
   unmarked("c.json", ",\"generator\":\"furrow\"");
