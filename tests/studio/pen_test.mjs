@@ -108,6 +108,7 @@ async function foldsAreSeen(seen) {
   assert.ok(beside.every(([x]) => Math.abs(x - 0.5) > 0.02), "none of them lies on the crest, which was drawn at 0.5");
   await still(seen);
   assert.equal((await stitches(seen)).length, 0, "they have faded, with the pen still up");
+  assert.equal((await tab.locator(".ring polygon").getAttribute("points")) ?? "", "", "no ring is where the pen is no more");
   await seen.shot("23-faded");
   await tab.keyboard.press("Escape");
   await until("the chosen line is seen", async () => (await stitches(seen)).length > 15);

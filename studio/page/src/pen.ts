@@ -57,7 +57,11 @@ export class Pen {
   ) {
     const canvas = view.canvas;
     this.ring = new Ring(view);
-    canvas.addEventListener("pointerleave", () => !this.sizing && this.ring.hide());
+    canvas.addEventListener("pointerleave", () => {
+      if (this.sizing || this.down) return;
+      this.last = undefined; // so that no ring comes back where the pen is no more
+      this.ring.hide();
+    });
     // In the capturing phase, so that the camera stays where it is while a line is drawn.
     canvas.addEventListener("pointerdown", (e) => this.begin(e), { capture: true });
     canvas.addEventListener("pointermove", (e) => this.move(e), { capture: true });

@@ -386,6 +386,7 @@ export class Studio {
 
   async takePicture() {
     const name = `${this.page.now().status!.title}.png`;
+    this.say("The picture is taken …"); // what was said against something else goes at once
     this.download(await this.view.picture(), name, "The picture");
   }
 
