@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Ways through the studio in a real browser (tests/studio/browser.mjs). Two lead from `furrow studio` with no argument to
 // a drawing that is opened again: with a skirt of the gallery, whose log is replayed, and with a dress in centimetres, z
-// up, and its body, as files of one's own. In each state all buttons are pressed, and the picture is looked at. The third is a new user's first minute: five ridges, drawn by mouse, that
-// stand at rest.
+// up, and its body, as files of one's own. In each state all buttons are pressed, and the picture is looked at. The third
+// is a new user's first minute: five ridges, drawn by mouse, that stand at rest.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
@@ -255,7 +255,7 @@ async function ofOnesOwn() {
   await dialog.getByLabel("Body").setInputFiles(join(scratch, "figure.obj"));
   await dialog.getByRole("button", { name: "Open", exact: true }).click();
   await until("the dress", async () => Number(await seen.tab.locator("footer").getAttribute("data-frames")) >= 2 && (await dialog.count()) === 0);
-  assert.match(await seen.words(), /Taken as cm with z upwards, so the body is 1\.\d\d m tall/);
+  await until("it tells what it was taken for", async () => /Taken as cm with z upwards, so the body is 1\.\d\d m tall/.test(await seen.words()));
   const strokes = [[[0.56, 0.52], [0.58, 0.86]], [[0.45, 0.52], [0.43, 0.86]], [[0.51, 0.55], [0.51, 0.86]]];
   await journey(first, seen, { folder: "dress-studio", strokes, isWhole: false });  // it takes minutes
 }
