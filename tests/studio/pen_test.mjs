@@ -226,8 +226,9 @@ async function givenAway(seen, shown) {
   await press(seen, "Open folder");
   await until("the project's folder is shown", async () => readFileSync(shown, "utf8").trim() === folder);
   await still(seen);
-  const before = await picture(seen), download = tab.waitForEvent("download");
+  const before = await picture(seen), lines = await seen.lines(), download = tab.waitForEvent("download");
   await press(seen, "Turn");
+  await (await stroke(tab, [[0.5, 0.4], [0.5, 0.7]]))();  // while the camera goes round
   const made = await download, gif = readFileSync(await made.path());
   assert.equal(made.suggestedFilename(), "skirt-studio-turn.gif");
   const { width, height, pictures, isEndless } = partsOf(gif);
@@ -242,6 +243,7 @@ async function givenAway(seen, shown) {
   await opened.screenshot({ path: join(out, "25-turn.png") });
   await opened.close();
   await until("all is as before", async () => changed(before, await picture(seen)) < 0.02);
+  assert.equal(await seen.lines(), lines, "no line is drawn on a picture that turns");
 }
 
 /** A sheet of two panels of 0.3 m, each with a texture of its own: they meet in a seam at x = 0. */

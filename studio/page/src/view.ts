@@ -207,17 +207,17 @@ export class View {
   }
 
   /** `ratio`: pixels of the picture a pixel of the page. */
-  private renderWith(ratio: number, hasShadows: boolean) {
+  private renderWith(ratio: number, hasShadows: boolean, camera = this.camera) {
     if (this.renderer.getPixelRatio() !== ratio) this.renderer.setPixelRatio(ratio); // which sets the size, too
-    const fromAside = raking.clone().multiplyScalar(this.size).applyQuaternion(this.camera.quaternion);
+    const fromAside = raking.clone().multiplyScalar(this.size).applyQuaternion(camera.quaternion);
     this.key.target.position.copy(this.controls.target);
     this.key.position.copy(this.controls.target).add(fromAside); // however far the camera is
     this.fill.target = this.key.target;
-    this.fill.position.copy(this.camera.position);
+    this.fill.position.copy(camera.position);
     this.shade(hasShadows);
     // three counts a picture before it draws the shadows, and would take what has changed since then for sent.
     ++this.renderer.info.render.frame;
-    this.renderer.render(this.scene, this.camera);
+    this.renderer.render(this.scene, camera);
   }
 
   /** Shadows of the light from above; pictures without have the same shaders, and see none. */
@@ -421,29 +421,31 @@ export class View {
     });
   }
 
-  /** Squares of so many pixels of what is seen, from so many places once round it. Nothing else is drawn meanwhile. */
+  /** Squares of so many pixels of what is seen, by a camera of its own from so many places once round it. Nothing else is
+   *  drawn meanwhile, nor by the pen. */
   round(count: number, side: number, take: (square: HTMLCanvasElement) => void): Promise<void> {
-    const from = this.camera.position.clone();
+    const camera = this.camera.clone(),
+      target = this.controls.target.clone(),
+      from = camera.position.clone().sub(target);
+    camera.aspect = 1;
+    camera.updateProjectionMatrix();
     return this.withoutTools(async () => {
       this.isRecording = true;
+      this.canvas.style.pointerEvents = "none";
       try {
         this.renderer.setPixelRatio(1);
         this.renderer.setSize(side, side, false);
-        this.camera.aspect = 1;
-        this.camera.updateProjectionMatrix();
         for (let i = 0; i < count; ++i) {
-          const way = from.clone().sub(this.controls.target);
-          way.applyAxisAngle(new THREE.Vector3(0, 1, 0), (-2 * Math.PI * i) / count);
-          this.camera.position.copy(this.controls.target).add(way);
-          this.camera.lookAt(this.controls.target);
-          this.renderWith(1, true);
+          const way = from.clone().applyAxisAngle(new THREE.Vector3(0, 1, 0), (-2 * Math.PI * i) / count);
+          camera.position.copy(target).add(way);
+          camera.lookAt(target);
+          this.renderWith(1, true, camera);
           take(this.canvas);
           await new Promise((soon) => setTimeout(soon)); // the page stays alive
         }
       } finally {
         this.isRecording = false;
-        this.camera.position.copy(from);
-        this.camera.lookAt(this.controls.target);
+        this.canvas.style.pointerEvents = "";
         this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
         this.fit();
       }
