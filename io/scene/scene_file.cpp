@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/scene/scene_file.h"
 
+#include <nlohmann/json.hpp>
+
 #include "io/scene/fabrics.h"
 #include "io/scene/scene_rules.h"
 #include "io/scene/settings_schema.h"
