@@ -232,8 +232,7 @@ std::vector<PreparedSegment> prepare_lines(const RenderScene& scene, const Frame
     if (line.points.size() == 1) {
       const Vector3d p = frame(line.points[0]);
       const double r = radius_at(p, line);
-      segments.push_back(
-          {{p - 0.01 * r * camera.right, p + 0.01 * r * camera.right}, {r, r}, linear(line.colour)});
+      segments.push_back({{p, p}, {r, r}, linear(line.colour)});
     }
     for (std::size_t i = 1; i < line.points.size(); ++i) {
       const Vector3d a = frame(line.points[i - 1]), b = frame(line.points[i]);
@@ -241,6 +240,8 @@ std::vector<PreparedSegment> prepare_lines(const RenderScene& scene, const Frame
       segments.push_back({{a, b}, {radius_at(a, line), radius_at(b, line)}, linear(line.colour)});
     }
   }
+  std::stable_partition(segments.begin(), segments.end(),
+                        [](const PreparedSegment& s) { return !s.is_ball(); });
   return segments;
 }
 

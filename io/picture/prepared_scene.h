@@ -30,11 +30,13 @@ struct PreparedMesh {
   Style style = Style::cloth;
 };
 
-/// One piece of a line's tube; a round cone, since the radius may grow with the distance from the eye.
+/// One piece of a line's tube; a round cone, since the radius may grow with the distance from the eye. A line
+/// of one point is a ball.
 struct PreparedSegment {
   std::array<Eigen::Vector3d, 2> ends;
   std::array<double, 2> radii;
   Eigen::Vector3d colour;  ///< linear light
+  bool is_ball() const { return ends[0] == ends[1]; }
 };
 
 /// The camera's frame: right, up and forward are orthonormal.
@@ -55,7 +57,7 @@ struct LineRadius {
 
 struct PreparedScene {
   std::vector<PreparedMesh> meshes;
-  std::vector<PreparedSegment> segments;
+  std::vector<PreparedSegment> segments;  ///< balls last
   LineRadius line_radius;
   double half_thickness = 0;  ///< of cloth
   PreparedCamera camera;

@@ -61,23 +61,38 @@ void add_mesh(RTCDevice device, RTCScene scene, const PreparedMesh& mesh, unsign
   attach(scene, geometry.handle, id);
 }
 
-/// `wider`: by so many pixels.
-void add_segments(RTCDevice device, RTCScene tree, const PreparedScene& scene, double wider) {
+/// An end of a segment for Embree: its place and radius, wider by so many pixels.
+float* put_end(float* at, const PreparedScene& scene, const PreparedSegment& segment, int end, double wider) {
+  const Vector3d& p = segment.ends[std::size_t(end)];
+  for (int i = 0; i < 3; ++i) *at++ = float(p[i]);
+  *at++ = float(segment.radii[std::size_t(end)] + wider * scene.camera.pixel_at(p));
+  return at;
+}
+
+/// The first `tubes` segments as geometry 0, the balls after them as geometry 1: a tube that is as short as a
+/// ball would be a dash, as Embree is single. `wider`: by so many pixels.
+void add_segments(RTCDevice device, RTCScene tree, const PreparedScene& scene, std::size_t tubes,
+                  double wider) {
   const std::vector<PreparedSegment>& segments = scene.segments;
-  const Geometry geometry(device, RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE);
-  auto* vertices = static_cast<float*>(new_buffer(geometry.handle, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4,
-                                                  4 * sizeof(float), 2 * segments.size()));
-  auto* indices = static_cast<unsigned*>(
-      new_buffer(geometry.handle, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT, sizeof(unsigned), segments.size()));
-  for (std::size_t s = 0; s < segments.size(); ++s) {
-    for (int end = 0; end < 2; ++end) {
-      const Vector3d& p = segments[s].ends[end];
-      for (int i = 0; i < 3; ++i) *vertices++ = float(p[i]);
-      *vertices++ = float(segments[s].radii[end] + wider * scene.camera.pixel_at(p));
+  if (tubes > 0) {
+    const Geometry geometry(device, RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE);
+    auto* vertices = static_cast<float*>(
+        new_buffer(geometry.handle, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4, 4 * sizeof(float), 2 * tubes));
+    auto* indices = static_cast<unsigned*>(
+        new_buffer(geometry.handle, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT, sizeof(unsigned), tubes));
+    for (std::size_t s = 0; s < tubes; ++s) {
+      for (int end = 0; end < 2; ++end) vertices = put_end(vertices, scene, segments[s], end, wider);
+      indices[s] = unsigned(2 * s);
     }
-    indices[s] = unsigned(2 * s);
+    attach(tree, geometry.handle, 0);
   }
-  attach(tree, geometry.handle, 0);
+  if (tubes == segments.size()) return;
+  const Geometry geometry(device, RTC_GEOMETRY_TYPE_SPHERE_POINT);
+  auto* vertices = static_cast<float*>(new_buffer(geometry.handle, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4,
+                                                  4 * sizeof(float), segments.size() - tubes));
+  for (std::size_t s = tubes; s < segments.size(); ++s)
+    vertices = put_end(vertices, scene, segments[s], 0, wider);
+  attach(tree, geometry.handle, 1);
 }
 
 RTCRay new_ray(const Vector3d& origin, const Vector3d& direction, double max_distance) {
@@ -116,9 +131,11 @@ RayScene::RayScene(const PreparedScene& scene) : device_(new_device()), surfaces
   }
   rtcCommitScene(surfaces_.get());
   if (!scene.segments.empty()) {
+    tubes_ =
+        std::size_t(std::ranges::find_if(scene.segments, &PreparedSegment::is_ball) - scene.segments.begin());
     for (auto* tree : {&lines_, &wide_lines_}) {
       tree->reset(new_scene(device_.get()));
-      add_segments(device_.get(), tree->get(), scene, tree == &lines_ ? 0 : thin_reach);
+      add_segments(device_.get(), tree->get(), scene, tubes_, tree == &lines_ ? 0 : thin_reach);
       rtcCommitScene(tree->get());
     }
   }
@@ -143,7 +160,8 @@ std::optional<LineHit> RayScene::nearest_line(const Vector3d& origin, const Vect
   if (!found) return std::nullopt;
   const Vector3d normal(found->hit.Ng_x, found->hit.Ng_y, found->hit.Ng_z);
   const double length = normal.norm();
-  return LineHit{int(found->hit.primID), found->ray.tfar,
+  const std::size_t segment = found->hit.primID + (found->hit.geomID == 0 ? 0 : tubes_);
+  return LineHit{int(segment), found->ray.tfar,
                  length > 0 ? Vector3d(normal / length) : Vector3d(-direction)};
 }
 

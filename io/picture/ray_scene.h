@@ -61,6 +61,7 @@ class RayScene {
   std::unique_ptr<RTCDeviceTy, Release> device_;
   std::unique_ptr<RTCSceneTy, Release> surfaces_;
   std::unique_ptr<RTCSceneTy, Release> lines_, wide_lines_;  ///< empty without segments
+  std::size_t tubes_ = 0;                                    ///< segments that are no balls
 };
 
 }  // namespace furrow::io
