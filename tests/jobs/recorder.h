@@ -31,4 +31,18 @@ class Recorder : public jobs::Listener {
   int cancel_at_;
 };
 
+/// Counts and cancels only once the field of a body is built: how often that asks depends on which of its
+/// threads is quicker.
+class AfterField : public Recorder {
+ public:
+  using Recorder::Recorder;
+  void progress(const std::string& what, double share) override {
+    built_ = built_ || (what == "distance field" && share == 1);
+  }
+  bool cancelled() override { return built_ && Recorder::cancelled(); }
+
+ private:
+  bool built_ = false;
+};
+
 }  // namespace furrow::tests

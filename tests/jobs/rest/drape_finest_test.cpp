@@ -102,10 +102,10 @@ TEST_CASE("drape: finest where it cannot be is refused, or said", "[long]") {
 TEST_CASE("drape: with finest, cancelled anywhere it ends with a level that it has come to, or with none",
           "[long]") {
   int with_a_level = 0;
-  tests::Recorder all;
+  tests::AfterField all;
   jobs::drape(finely_across_ball(), all);
   for (int k = 1; k < 20; ++k) try {
-      tests::Recorder listener(all.asked * k / 20);
+      tests::AfterField listener(all.asked * k / 20);
       const jobs::Draped d = jobs::drape(finely_across_ball(), listener).garments.at(0);
       INFO(k);
       CHECK(d.outcome() == "interrupted");

@@ -196,11 +196,11 @@ TEST_CASE("drape: layers that their user cancels end on the level that they have
   jobs::DrapeJob job = two_across_ball();
   job.subdivide = 1;
   job.output = folder / "worn.ply";
-  tests::Recorder all;
+  tests::AfterField all;
   jobs::drape(job, all);
   std::set<std::size_t> ends;
   for (int k = 1; k < 25; ++k) {
-    tests::Recorder listener(all.asked * k / 25);
+    tests::AfterField listener(all.asked * k / 25);
     try {
       const jobs::DrapeJobReport report = jobs::drape(job, listener);
       std::size_t vertices = 0;
