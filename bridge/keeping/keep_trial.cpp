@@ -22,9 +22,13 @@ constexpr double first_part = 0.2;  // of the first run, before it is asked whet
 constexpr int look_steps = 100;     // between two moments that are looked at, however often a run is observed
 // At what is on its way elsewhere, when the push has calmed [s].
 constexpr double first_look = 0.5, look = 0.1;
-constexpr double calm_dt = 1.0 / 30;   // of implicit steps, where nothing blows [s]
-constexpr double gust_of_euler = 1.6;  // such steps take so much out of a swing that gusts blow stronger
-constexpr double least_share = 0.005;  // of the mean edge: what is lower is not told from the mesh
+constexpr double implicit_dt = 1.0 / 30;  // [s]
+// Such steps take so much out of a swing that gusts blow stronger. Closer ones say no more of other gusts.
+constexpr double gust_of_euler = 1.6;
+constexpr double tolerance_in_gusts = 0.2;  // physics::ImplicitOptions::tolerance
+// What moves so slowly, for so long, that it would take a second to lose what a line may lose, is calm.
+constexpr double second = 1, calm_for = 0.3;  // [s]
+constexpr double least_share = 0.005;         // of the mean edge: what is lower is not told from the mesh
 constexpr double never = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -141,9 +145,9 @@ struct Run {
 
 /// Of a run, up to so many seconds from its beginning.
 struct Part {
-  double until;                   ///< [s]
-  Vec3 gravity;                   ///< with the gust [m/s^2]
-  std::optional<double> dt = {};  ///< of implicit steps, if the options name none [s]
+  double until;             ///< [s]
+  Vec3 gravity;             ///< with the gust [m/s^2]
+  bool ends_early = false;  ///< once the cloth is calm
 };
 
 /// What goes on from a run: gusts to both sides along two level axes, and calm.
@@ -154,9 +158,25 @@ std::vector<Part> gusts_and_calm(const KeepOptions& o, const Vec3& gust, double 
   std::vector<Part> parts;
   for (const Vec3& side : {a, Vec3(-a), b, Vec3(-b)})
     parts.push_back({from += o.gust_seconds, o.run.gravity + side});
-  parts.push_back({from + o.calm_seconds, o.run.gravity, calm_dt});
+  parts.push_back({from + o.calm_seconds, o.run.gravity, true});
   return parts;
 }
+
+/// Sees when a run has been calm for a while.
+class CalmWatch {
+ public:
+  explicit CalmWatch(double speed) : speed_(speed) {}
+
+  bool operator()(const physics::Particles& p, double time) {
+    const bool slow = std::all_of(p.v.begin(), p.v.end(), [&](const Vec3& v) { return v.norm() <= speed_; });
+    if (!slow || !since_) since_ = time;
+    return slow && time - *since_ >= calm_for;
+  }
+
+ private:
+  double speed_;  ///< that is none [m/s]
+  std::optional<double> since_;
+};
 
 /// Each line's worst of several runs, or on their way.
 void note(const std::vector<double>& shares, std::vector<double>& worst) {
@@ -180,26 +200,41 @@ struct Setting {
     return shares_of_heights(meter.heights(cloth.particles), drawn);
   }
 
-  /// Simulates a part of the run; from next_look on it notes what lines keep.
-  physics::Outcome on_to(const Part& part, Run& run, std::vector<double>& worst) const {
+  /// Slower than that, no line leaves its bounds within a second [m/s].
+  double calm_speed() const {
+    double least = never;
+    for (const double height : drawn) least = std::min(least, std::abs(height));
+    return (1 - o.kept) * least / second;
+  }
+
+  physics::SimulateOptions options_of(const Part& part) const {
     physics::SimulateOptions options = o.run;
     options.seconds = part.until;
     options.gravity = part.gravity;
     options.implicit.keep_factors = true;
-    const bool large_steps = physics::solves_contact(options.integrator);
-    if (large_steps) options.observe_steps = 1;
-    if (large_steps && !options.dt) options.dt = part.dt;
-    return physics::simulate(run.cloth, world, options, &run.state,
-                             [&](const auto& now) {
-                               const bool looks =
-                                   large_steps || now.step % look_steps == 0 || now.time >= part.until;
-                               if (looks && now.time >= run.next_look) {
-                                 note(shares(run.cloth), worst);
-                                 run.next_look += look;
-                               }
-                               return !go_on || go_on((run.before + now.time) / whole);
-                             })
-        .outcome;
+    if (part.gravity != o.run.gravity) options.implicit.tolerance = tolerance_in_gusts;
+    if (!physics::solves_contact(options.integrator)) return options;
+    options.observe_steps = 1;
+    if (!options.dt) options.dt = implicit_dt;
+    return options;
+  }
+
+  /// Simulates a part of the run; from next_look on it notes what lines keep.
+  physics::Outcome on_to(const Part& part, Run& run, std::vector<double>& worst) const {
+    const physics::SimulateOptions options = options_of(part);
+    CalmWatch watch(calm_speed());
+    bool calm = false;
+    const auto see = [&](const physics::SimulateProgress& now) {
+      const bool looks = options.observe_steps == 1 || now.step % look_steps == 0 || now.time >= part.until;
+      if (looks && now.time >= run.next_look) {
+        note(shares(run.cloth), worst);
+        run.next_look += look;
+      }
+      calm = part.ends_early && watch(run.cloth.particles, now.time);
+      return !calm && (!go_on || go_on((run.before + now.time) / whole));
+    };
+    const physics::Outcome end = physics::simulate(run.cloth, world, options, &run.state, see).outcome;
+    return calm ? physics::Outcome::finished : end;
   }
 
   /// What lines keep of a run after these parts.
@@ -233,7 +268,7 @@ KeepTrial try_shape(const physics::Cloth& start, bool stable, const physics::Wor
   for (int number = 1; number <= runs; ++number) {
     Run run{start, {}, (number - 1) * o.seconds + (number > 1 ? in_gusts : 0), stable ? never : first_look};
     push_off(run.cloth, o.push, std::uint64_t(number));
-    Outcome end = setting.on_to({branch, o.run.gravity, calm_dt}, run, trial.kept);
+    Outcome end = setting.on_to({branch, o.run.gravity}, run, trial.kept);
     if (end != Outcome::finished) return lost(end);
     if (const std::vector<double> early = setting.shares(run.cloth); in_vain && in_vain(early))
       return {early, unknown};
@@ -243,7 +278,7 @@ KeepTrial try_shape(const physics::Cloth& start, bool stable, const physics::Wor
       if (end != Outcome::finished) return lost(end);
       run.before += in_gusts;
     }
-    end = setting.on_to({o.seconds, o.run.gravity, calm_dt}, run, trial.kept);
+    end = setting.on_to({o.seconds, o.run.gravity, stable}, run, trial.kept);
     if (end != Outcome::finished) return lost(end);
     note(setting.shares(run.cloth), trial.kept);
     trial.drift = std::max(trial.drift, farthest_apart(run.cloth.particles.x, start.particles.x));
