@@ -22,10 +22,8 @@ constexpr double first_part = 0.2;  // of the first run, before it is asked whet
 constexpr int look_steps = 100;     // between two moments that are looked at, however often a run is observed
 // At what is on its way elsewhere, when the push has calmed [s].
 constexpr double first_look = 0.5, look = 0.1;
-constexpr double implicit_dt = 1.0 / 30;  // [s]
-// Such steps take so much out of a swing that gusts blow stronger. Closer ones say no more of other gusts.
-constexpr double gust_of_euler = 1.6;
-constexpr double tolerance_in_gusts = 0.2;  // physics::ImplicitOptions::tolerance
+constexpr double calm_dt = 1.0 / 30;   // of implicit steps, where nothing blows [s]
+constexpr double gust_of_euler = 1.6;  // such steps take so much out of a swing that gusts blow stronger
 // What moves so slowly, for so long, that it would take a second to lose what a line may lose, is calm.
 constexpr double second = 1, calm_for = 0.3;  // [s]
 constexpr double least_share = 0.005;         // of the mean edge: what is lower is not told from the mesh
@@ -212,10 +210,9 @@ struct Setting {
     options.seconds = part.until;
     options.gravity = part.gravity;
     options.implicit.keep_factors = true;
-    if (part.gravity != o.run.gravity) options.implicit.tolerance = tolerance_in_gusts;
     if (!physics::solves_contact(options.integrator)) return options;
     options.observe_steps = 1;
-    if (!options.dt) options.dt = implicit_dt;
+    if (!options.dt && part.gravity == o.run.gravity) options.dt = calm_dt;
     return options;
   }
 

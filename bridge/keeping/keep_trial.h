@@ -60,10 +60,9 @@ using InVain = std::function<bool(const std::vector<double>& shares)>;
 /// stable: what its certificate says; if not, there are options.pushes runs without gusts, and of `kept` the
 /// worst counts, at any time from 0.5 s on. The calm after gusts, and that of a stable shape, end once no
 /// vertex has moved for 0.3 s fast enough to take a line out of its bounds within a second. Implicit steps
-/// are those of backward Euler, 1/30 s long: their gusts are 1.6 times as strong, and are solved less
-/// closely; where nothing blows they go on with factors of steps before. A step's length is that
-/// of the options if they name one. What a trial that ends early does not know is NaN. Both functions
-/// may be empty.
+/// are those of backward Euler: their gusts are 1.6 times as strong, and where nothing blows they go on with
+/// factors of steps before, 1/30 s long unless the options name a step. What a trial that ends early does not
+/// know is NaN. Both functions may be empty.
 ///
 /// \details Each run begins with a push of every vertex: an unstable shape would stand still like a pencil on
 /// its tip, and a stable one may lie in a shallow hollow.
