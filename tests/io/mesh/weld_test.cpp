@@ -98,7 +98,7 @@ TEST_CASE("weld: a mesh without two vertices at one place keeps its vertices and
 }
 
 TEST_CASE(
-    "weld: the sides of a seam become one; texture, materials and weights stay, the order of vertices, too") {
+    "weld: the sides of a seam become one, and texture, materials, weights and the order of vertices stay") {
   const io::MeshFile file = two_panels(4);
   const io::MeshFile welded = io::welded(file, "t");
   const MeshInfo info = measure(welded.mesh);
