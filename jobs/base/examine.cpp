@@ -113,10 +113,6 @@ void add_doubled(const Mesh& mesh, const Places& places, std::vector<Ailment>& f
   found.push_back(std::move(a));
 }
 
-std::string place_text(const Point& p) {
-  return fmt::format("({:.3f}, {:.3f}, {:.3f}) m", p.x(), p.y(), p.z());
-}
-
 /// Seams that lie open by a rounding, and by vertices amid their edges.
 void add_open_seams(const Mesh& mesh, std::vector<Ailment>& found) {
   const geometry::BorderSeams seams = geometry::find_border_seams(mesh);
@@ -125,8 +121,10 @@ void add_open_seams(const Mesh& mesh, std::vector<Ailment>& found) {
     Ailment a{code, "", "`furrow doctor repair` joins them"};
     a.count = count, a.mendable = true;
     for (std::size_t i = 0; i < std::min(count, most_marks); ++i) a.places.push_back(place_of(i));
-    a.text = std::to_string(count) + what +
-             ": what meets there is not joined, and comes apart; the first at " + place_text(a.places[0]);
+    const Point& p = a.places[0];
+    a.text = fmt::format(
+        "{}{}: what meets there is not joined, and comes apart; the first at ({:.3f}, {:.3f}, {:.3f}) m",
+        count, what, p.x(), p.y(), p.z());
     found.push_back(std::move(a));
   };
   add("seams_apart", seams.apart.size(),
@@ -225,9 +223,7 @@ std::vector<Ailment> faults_of_mesh(const io::MeshFile& file) {
   add_repairs(file.repairs, found);
   const std::size_t own = file.mesh->num_vertices() - file.repairs.duplicated_vertices;
   add_doubled(file.mesh, places_of(file.mesh, own), found);
-  const bool soup =
-      std::any_of(found.begin(), found.end(), [](const Ailment& a) { return a.code == "soup"; });
-  if (!soup) add_open_seams(file.mesh, found);
+  if (found.empty() || found.back().code != "soup") add_open_seams(file.mesh, found);
   add_flat_faces(file.mesh, found);
   add_holes(file.mesh, found);
   return found;
