@@ -232,8 +232,8 @@ TEST_CASE(
     const Mesh parted = cut_along(sheet, cut, [&](Vertex v, const Point&) {
       const bool on = std::find(path.begin(), path.end(), v) != path.end();
       const Vector way(by(random), by(random), by(random));
-      const double length = std::max(1., std::sqrt(way.squared_length()));
-      return sheet.point(v) + (on ? shortest / 210 / length : 0) * way;
+      const double at_least = std::max(1., std::sqrt(way.squared_length()));
+      return sheet.point(v) + (on ? shortest / 210 / at_least : 0) * way;
     });
     // What was moved may shorten the shortest edge by a hundredth.
     const BorderSeams seams = find_border_seams(parted);
