@@ -23,6 +23,7 @@
 #include "io/mesh/merge_points.h"
 #include "io/mesh/mesh_readers.h"
 #include "io/mesh/soup_bytes.h"
+#include "io/mesh/weld.h"
 
 namespace furrow::io {
 namespace {
@@ -417,7 +418,7 @@ MeshFile read_gltf(const std::filesystem::path& path, const ReadOptions& options
   file.warnings.push_back(name + ": single precision, vertex order not kept");
   for (const std::string& warning : content.warnings) file.warnings.push_back(name + ": " + warning);
   set_mesh(file, content.soup, name);
-  return file;
+  return with_joined_seams(std::move(file), name);
 }
 
 }  // namespace furrow::io

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/mesh/weld.h"
 
+#include <algorithm>
+#include <span>
+
+#include "geometry/figure/border_seams.h"
 #include "geometry/mesh/face_point.h"
+#include "geometry/mesh/measures.h"
 #include "geometry/mesh/preconditions.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/vertex_attributes.h"
@@ -13,18 +18,28 @@ namespace {
 
 using namespace geometry;
 
-/// Points in the order of the first vertices that lie there; returns the point of each vertex.
-std::vector<std::size_t> take_points(const Mesh& mesh, PolygonSoup& soup) {
+/// The seams, and each vertex with the first one at its place.
+BorderSeams at_one_place(const Mesh& mesh, BorderSeams seams) {
+  PointNumbers numbers;
+  std::vector<Vertex> first;
+  for (Vertex v : mesh.vertices()) {
+    if (mesh.is_isolated(v)) continue;
+    const auto [number, is_new] = numbers.number(mesh.point(v));
+    is_new ? first.push_back(v) : seams.pairs.push_back({first[number], v});
+  }
+  return seams;
+}
+
+/// Of vertices that are joined, the first, in order; returns the point of each vertex.
+std::vector<std::size_t> take_points(const Mesh& mesh, const std::vector<Vertex>& joined, PolygonSoup& soup) {
   const auto color = find_map(mesh, attribute::color);
   const auto others = vertex_attributes(mesh);
   for (const VertexAttribute& a : others) soup.attributes.push_back({a.name, {}});
   std::vector<std::size_t> point(mesh.num_vertices(), 0);
-  PointNumbers numbers;
   for (Vertex v : mesh.vertices()) {
     if (mesh.is_isolated(v)) continue;
-    const auto [number, is_new] = numbers.number(mesh.point(v));
-    point[v.idx()] = number;
-    if (!is_new) continue;
+    point[v.idx()] = joined[v.idx()] == v ? soup.points.size() : point[joined[v.idx()].idx()];
+    if (joined[v.idx()] != v) continue;
     soup.points.push_back(mesh.point(v));
     if (color) soup.colors.push_back((*color)[v]);
     for (std::size_t k = 0; k < others.size(); ++k) soup.attributes[k].values.push_back(others[k].values[v]);
@@ -32,27 +47,69 @@ std::vector<std::size_t> take_points(const Mesh& mesh, PolygonSoup& soup) {
   return point;
 }
 
-void take_faces(const Mesh& mesh, const std::vector<std::size_t>& point, PolygonSoup& soup) {
-  const auto texture = find_map(mesh, attribute::texture);
-  const auto group = find_map(mesh, attribute::group), material = find_map(mesh, attribute::material);
-  for (Face f : mesh.faces()) {
-    for (Halfedge h : mesh.halfedges_around_face(mesh.halfedge(f))) {
-      soup.corners.push_back(point[mesh.target(h).idx()]);
-      if (texture) soup.textures.push_back((*texture)[h]);
-    }
-    soup.close_face();
-    if (group) soup.groups.push_back((*group)[f]);
-    if (material) soup.materials.push_back((*material)[f]);
+struct SplitCorner {
+  std::size_t point;
+  TextureCoordinate texture;
+};
+using SplitCorners = std::array<SplitCorner, 3>;
+
+/// Parts the triangle that has the side from one corner to the other by a corner amid it.
+void cut_side(std::vector<SplitCorners>& parts, std::size_t from, std::size_t to, const SplitCorner& amid) {
+  for (std::size_t i = 0; i < 3 * parts.size(); ++i) {
+    SplitCorners& part = parts[i / 3];
+    if (part[i % 3].point != from || part[(i + 1) % 3].point != to) continue;
+    SplitCorners rest = part;
+    part[(i + 1) % 3] = rest[i % 3] = amid;
+    return parts.push_back(rest);
   }
 }
 
-}  // namespace
+/// A triangle, or its parts where vertices lie amid its sides. Corner k is the target of its halfedge k.
+std::vector<SplitCorners> parts_of(const SplitCorners& corners, const std::array<Halfedge, 3>& borders,
+                                   std::span<const SeamSplit> splits, const std::vector<std::size_t>& point) {
+  std::vector<SplitCorners> parts{corners};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const SplitCorner &a = corners[(k + 2) % 3], &b = corners[k];
+    std::size_t to = b.point;
+    auto s = std::lower_bound(splits.begin(), splits.end(), borders[k],
+                              [](const SeamSplit& split, Halfedge h) { return split.border < h; });
+    for (; s != splits.end() && s->border == borders[k]; ++s) {  // the border goes from b to a
+      SplitCorner amid{point[s->at.idx()], {}};
+      for (std::size_t i = 0; i < 2; ++i) amid.texture[i] = s->t * a.texture[i] + (1 - s->t) * b.texture[i];
+      cut_side(parts, a.point, to, amid);
+      to = amid.point;
+    }
+  }
+  return parts;
+}
 
-MeshFile welded(const MeshFile& file, const std::string& name) {
-  require_triangles(file.mesh, "weld");
+void take_faces(const Mesh& mesh, const std::vector<std::size_t>& point, std::span<const SeamSplit> splits,
+                PolygonSoup& soup) {
+  const auto texture = find_map(mesh, attribute::texture);
+  const auto group = find_map(mesh, attribute::group), material = find_map(mesh, attribute::material);
+  for (Face f : mesh.faces()) {
+    auto sides = halfedges_of(mesh, f);
+    SplitCorners corners;
+    for (std::size_t k = 0; k < 3; ++k)
+      corners[k] = {point[mesh.target(sides[k]).idx()], texture ? (*texture)[sides[k]] : TextureCoordinate{}};
+    for (Halfedge& h : sides) h = mesh.opposite(h);
+    for (const SplitCorners& part : parts_of(corners, sides, splits, point)) {
+      for (const SplitCorner& corner : part) {
+        soup.corners.push_back(corner.point);
+        if (texture) soup.textures.push_back(corner.texture);
+      }
+      soup.close_face();
+      if (group) soup.groups.push_back((*group)[f]);
+      if (material) soup.materials.push_back((*material)[f]);
+    }
+  }
+}
+
+/// The file with pairs of vertices joined into the first of them, and faces split.
+MeshFile rebuilt(const MeshFile& file, const std::string& name, const BorderSeams& seams) {
   PolygonSoup soup;
-  const std::vector<std::size_t> point = take_points(file.mesh, soup);
-  take_faces(file.mesh, point, soup);
+  const std::vector<std::size_t> point = take_points(file.mesh, joined_vertices(file.mesh, seams), soup);
+  take_faces(file.mesh, point, seams.splits, soup);
   MeshFile result = file;
   result.mesh = Mesh();
   result.polylines.clear();
@@ -60,6 +117,37 @@ MeshFile welded(const MeshFile& file, const std::string& name) {
   result.repairs = {};
   result.repairs.merged_vertices = file.mesh->number_of_vertices() - soup.points.size();
   set_mesh(result, soup, name);
+  return result;
+}
+
+}  // namespace
+
+MeshFile welded(const MeshFile& file, const std::string& name) {
+  require_triangles(file.mesh, "weld");
+  MeshFile result = rebuilt(file, name, at_one_place(file.mesh, {}));
+  const BorderSeams seams = find_border_seams(result.mesh);
+  if (!seams.any()) return result;
+  result = rebuilt(result, name, at_one_place(result.mesh, seams));
+  result.repairs.merged_vertices = file.mesh->number_of_vertices() + result.repairs.duplicated_vertices -
+                                   result.mesh->number_of_vertices();
+  return result;
+}
+
+MeshFile with_joined_seams(MeshFile file, const std::string& name) {
+  const BorderSeams seams = find_border_seams(file.mesh, true);
+  if (!seams.any()) return file;
+  const std::vector<Vertex> joined = joined_vertices(file.mesh, seams);
+  MeshFile result = rebuilt(file, name, seams);
+  std::size_t doubled = result.repairs.duplicated_vertices, merged = result.repairs.merged_vertices;
+  for (std::size_t v = joined.size() - file.repairs.duplicated_vertices; v < joined.size(); ++v)
+    doubled += joined[v].idx() == v;  // these are still the last
+  result.repairs = file.repairs;
+  result.repairs.duplicated_vertices = doubled;
+  result.repairs.merged_vertices += merged;
+  result.warnings = std::move(file.warnings);
+  result.warnings.push_back(
+      name + ": seams joined that lay open by a rounding: " + std::to_string(seams.apart.size()) +
+      " vertices, up to " + length_text(seams.gap) + " apart");
   return result;
 }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "bridge/arrays/convert.h"
+#include "geometry/figure/border_seams.h"
+#include "geometry/figure/close_holes.h"
 #include "geometry/mesh/border_loops.h"
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/measures.h"
@@ -111,6 +113,29 @@ void add_doubled(const Mesh& mesh, const Places& places, std::vector<Ailment>& f
   found.push_back(std::move(a));
 }
 
+/// Seams that lie open by a rounding, and by vertices amid their edges.
+void add_open_seams(const Mesh& mesh, std::vector<Ailment>& found) {
+  const geometry::BorderSeams seams = geometry::find_border_seams(mesh);
+  const auto add = [&](const char* code, std::size_t count, const std::string& what, const auto& place_of) {
+    if (count == 0) return;
+    Ailment a{code, "", "`furrow doctor repair` joins them"};
+    a.count = count, a.mendable = true;
+    for (std::size_t i = 0; i < std::min(count, most_marks); ++i) a.places.push_back(place_of(i));
+    const Point& p = a.places[0];
+    a.text = fmt::format(
+        "{}{}: what meets there is not joined, and comes apart; the first at ({:.3f}, {:.3f}, {:.3f}) m",
+        count, what, p.x(), p.y(), p.z());
+    found.push_back(std::move(a));
+  };
+  add("seams_apart", seams.apart.size(),
+      " vertices of seams lie up to " + geometry::length_text(seams.gap) +
+          " from the other side (a seam is joined within 1/100 of its edges, here " +
+          geometry::length_text(seams.tolerance) + ")",
+      [&](std::size_t i) { return mesh.point(seams.apart[i]); });
+  add("t_junctions", seams.splits.size(), " vertices of seams lie amid an edge of the other side",
+      [&](std::size_t i) { return mesh.point(seams.splits[i].at); });
+}
+
 /// How many faces lie on another that has the same three places.
 std::size_t count_backed(const Mesh& mesh, const Places& places, std::vector<Point>& where) {
   std::vector<std::pair<std::array<std::size_t, 3>, Face>> keys;
@@ -134,8 +159,7 @@ std::size_t count_backed(const Mesh& mesh, const Places& places, std::vector<Poi
 void add_holes(const Mesh& mesh, std::vector<Ailment>& found) {
   Ailment a{"holes", "", "`furrow doctor repair` closes them"};
   double longest = 0;
-  for (const geometry::BorderLoop& loop : geometry::border_loops(mesh)) {
-    if (loop.vertices.size() > edges_of_hole || loop.vertices.size() >= mesh.number_of_faces()) continue;
+  for (const geometry::BorderLoop& loop : geometry::small_holes(mesh, edges_of_hole)) {
     ++a.count;
     longest = std::max(longest, loop.length);
     if (a.places.size() < most_marks) a.places.push_back(mesh.point(loop.vertices[0]));
@@ -199,6 +223,7 @@ std::vector<Ailment> faults_of_mesh(const io::MeshFile& file) {
   add_repairs(file.repairs, found);
   const std::size_t own = file.mesh->num_vertices() - file.repairs.duplicated_vertices;
   add_doubled(file.mesh, places_of(file.mesh, own), found);
+  if (found.empty() || found.back().code != "soup") add_open_seams(file.mesh, found);
   add_flat_faces(file.mesh, found);
   add_holes(file.mesh, found);
   return found;

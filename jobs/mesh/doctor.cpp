@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/mesh/doctor.h"
 
+#include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "geometry/figure/close_holes.h"
@@ -113,7 +115,8 @@ bool any_mendable(const std::vector<Ailment>& found) {
 void mend(DoctorReport& report, const DoctorJob& job) {
   io::MeshFile& file = report.mesh;
   if (any_mendable(report.found)) {
-    if (has(report.found, "soup") || has(report.found, "unjoined") || has(report.found, "two_sided"))
+    constexpr std::array joined = {"soup", "unjoined", "two_sided", "seams_apart", "t_junctions"};
+    if (std::ranges::any_of(joined, [&](const char* code) { return has(report.found, code); }))
       file = io::welded(file, name_of(job.mesh, "the mesh"));
     SeamTies ties = seam_ties(file.mesh);
     const SeamTies doubled = doubled_vertices(file);
@@ -169,7 +172,8 @@ std::vector<CardRow> card(DoctorJob& job) {
       {"body_unit", unit_choice(job.body_unit), "unit of the body's file, where it is not the garment's"},
       {"as_body", &job.is_body, "examine the mesh as a body: closed, wound outwards"},
       {"repair", &job.repair,
-       "join vertices at the same place, drop faces that are twice there, wind neighbours alike, part what "
+       "join vertices at the same place and seams that lie open by a rounding, drop faces that are twice "
+       "there, wind neighbours alike, part what "
        "is not manifold, close holes (small ones of a garment, all of a body)"},
       {"output", &job.output, "mended mesh to write: " + io::mesh_formats()},
   };

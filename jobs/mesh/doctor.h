@@ -36,12 +36,12 @@ struct DoctorReport {
 std::vector<CardRow> card(DoctorJob& job);
 
 /// Examines a mesh: what is wrong, where, and what mends it; the same checks come before every job. With
-/// `repair` the mesh is mended: vertices at exactly the same place are joined, faces that are there twice are
-/// dropped, neighbours wound alike, what is not manifold is parted, and holes are closed: small ones of a
-/// garment, all of a body. Texture, groups and materials stay; what vertices had, rest lengths among it,
-/// stays where nothing is joined. Throws physics::Cancelled if the listener cancels; std::invalid_argument
-/// for an output that would replace an input, geometry::ContentError for files that cannot be read. O(F log
-/// F).
+/// `repair` the mesh is mended: vertices at exactly the same place are joined, and seams that lie open by a
+/// rounding (geometry/figure/border_seams.h); faces that are there twice are dropped, neighbours wound alike,
+/// what is not manifold is parted, and holes are closed: small ones of a garment, all of a body. Texture,
+/// groups and materials stay; what vertices had, rest lengths among it, stays where nothing is joined. Throws
+/// physics::Cancelled if the listener cancels; std::invalid_argument for an output that would replace an
+/// input, geometry::ContentError for files that cannot be read. O(F log F).
 DoctorReport doctor(const DoctorJob& job, Listener& listener);
 
 /// The report for programs, and what the command line prints.

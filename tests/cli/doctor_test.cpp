@@ -43,6 +43,34 @@ TEST_CASE("doctor: the program says what is wrong, shows where, mends it and exi
   CHECK(run_furrow("doctor " + mesh + " --repair -o " + mesh).exit_code == 2);
 }
 
+TEST_CASE("doctor: panels 10 um apart are told with count, place and remedy, by drape, too, and joined") {
+  const ScratchDirectory scratch;
+  const std::string mesh = scratch / "panels.obj", mended = scratch / "mended.obj";
+  std::string text;
+  for (const double x : {0., 1.00001})
+    for (int i = 0; i <= 5; ++i)
+      text += "v " + std::to_string(x) + " " + std::to_string(0.2 * i) + " 0\nv " + std::to_string(x + 1) +
+              " " + std::to_string(0.2 * i) + " 0\n";
+  for (const int first : {1, 13})
+    for (int i = first; i < first + 10; i += 2)
+      text += "f " + std::to_string(i) + " " + std::to_string(i + 1) + " " + std::to_string(i + 3) + " " +
+              std::to_string(i + 2) + "\n";
+  write_text(mesh, text);
+  const Run found = run_furrow("doctor " + mesh);
+  CHECK(found.exit_code == 4);
+  CHECK_THAT(found.out,
+             Contains("found: 6 vertices of seams lie up to 0.01 mm from the other side (a seam is joined "
+                      "within 1/100 of its edges, here 2 mm): what meets there is not joined, and comes "
+                      "apart; the first at (1.000, 0.000, 0.000) m; furrow doctor --repair joins them"));
+  const Run hung =
+      run_furrow("simulate " + mesh + " --pin-loop top --seconds 0.001 -o " + (scratch / "hung.ply"));
+  CHECK_THAT(hung.err, Contains("6 vertices of seams lie up to 0.01 mm from the other side"));
+  CHECK_THAT(hung.err, Contains("furrow doctor --repair joins them"));
+  CHECK(run_furrow("doctor " + mesh + " --repair -o " + mended).exit_code == 0);
+  CHECK(examined(mended)["well"] == true);
+  CHECK(examined(mended)["components"] == 1);
+}
+
 TEST_CASE("doctor: our garments on our bodies are well, and each job says so by saying nothing", "[long]") {
   for (const char* garment : {"skirt.obj", "shirt.obj", "sheet.obj"}) {
     const nlohmann::json report = examined(our_meshes + garment + " --body " + our_meshes + "mannequin.obj");

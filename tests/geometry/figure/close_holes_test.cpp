@@ -39,6 +39,22 @@ TEST_CASE("close_holes: triangles that were taken out come back, and the garment
   CHECK(mesh.is_valid(false));
 }
 
+TEST_CASE("close_holes: the outline of a flat piece is none, a hole in it is") {
+  Mesh sheet = tests::grid(2, 2);
+  CHECK(close_small_holes(sheet, 8) == 0);
+  Mesh frame = tests::grid(3, 3);  // without its middle: both borders are small
+  for (const Face f : std::vector<Face>(frame.faces().begin(), frame.faces().end())) {
+    bool inner = true;
+    for (const Vertex v : frame.vertices_around_face(frame.halfedge(f))) inner = inner && !frame.is_border(v);
+    if (inner) CGAL::Euler::remove_face(frame.halfedge(f), frame);
+  }
+  frame.collect_garbage();
+  REQUIRE(measure(frame).boundary_loops == 2);
+  CHECK(small_holes(frame, 12).size() == 1);
+  CHECK(close_small_holes(frame, 12) == 1);
+  CHECK(measure(frame).area == Approx(1));
+}
+
 TEST_CASE("close_holes: wider holes, loose triangles and closed meshes are left alone") {
   Mesh tube = tests::cylinder(1, 2, 9, 4), ball = tests::icosphere(1), triangle = tests::single_triangle();
   CHECK(close_small_holes(tube, 8) == 0);

@@ -172,6 +172,90 @@ TEST_CASE(
   CHECK(mended.left.empty());
 }
 
+TEST_CASE("doctor: seams that lie open by a rounding are told with their places, and joined, bodies' too") {
+  geometry::Mesh panels = tests::grid(6, 6, 0.6, 0.6), right = panels;
+  for (auto v : right.vertices()) right.point(v) = right.point(v) + geometry::Vector(0.60001, 0, 0);
+  tests::append(panels, right);
+  const jobs::DoctorReport report = examine(panels);
+  REQUIRE(find(report.found, "seams_apart"));
+  const jobs::Ailment& apart = *find(report.found, "seams_apart");
+  CHECK(apart.count == 7);
+  CHECK_FALSE(apart.fatal);
+  CHECK(apart.text.find("up to 0.01 mm from the other side") != apart.text.npos);
+  CHECK(apart.text.find("here 1 mm") != apart.text.npos);
+  CHECK(apart.text.find("the first at (0.600, 0.000, 0.000) m") != apart.text.npos);
+  for (const geometry::Point& p : apart.places) CHECK(p.x() == Approx(0.60001));
+  CHECK_FALSE(find(report.found, "t_junctions"));
+  for (const bool is_body : {false, true}) {
+    tests::Recorder recorder;
+    jobs::DoctorJob job;
+    job.mesh = file_of(panels);
+    job.is_body = is_body, job.repair = true;
+    const jobs::DoctorReport mended = jobs::doctor(job, recorder);
+    CHECK(find(mended.found, "seams_apart"));
+    CHECK_FALSE(find(mended.left, "seams_apart"));
+    CHECK(geometry::measure(mended.mesh.mesh).components == 1);
+  }
+}
+
+TEST_CASE("doctor: vertices amid the edges of a seam are told, and the faces there split") {
+  geometry::Mesh yoke = tests::grid(6, 5, 0.6, 0.5), skirt = tests::grid(6, 10, 0.6, 0.5);
+  for (auto v : skirt.vertices()) skirt.point(v) = skirt.point(v) + geometry::Vector(0.6, 0, 0);
+  tests::append(yoke, skirt);
+  tests::Recorder recorder;
+  jobs::DoctorJob job;
+  job.mesh = file_of(yoke);
+  job.repair = true;
+  const jobs::DoctorReport mended = jobs::doctor(job, recorder);
+  REQUIRE(find(mended.found, "t_junctions"));
+  CHECK(find(mended.found, "t_junctions")->count == 5);
+  CHECK(find(mended.found, "unjoined"));
+  CHECK(mended.left.empty());
+  CHECK(mended.mesh.mesh->number_of_faces() == yoke.number_of_faces() + 5);
+  CHECK(geometry::measure(mended.mesh.mesh).boundary_loops == 1);
+}
+
+TEST_CASE("doctor: corners of a soup that differ by the rounding of single precision are joined") {
+  const geometry::Mesh sheet = geometry::equilateral_sheet(0.4, 0.4, 0.05);
+  geometry::Mesh soup = loose(sheet);
+  for (auto v : soup.vertices())
+    if (v.idx() % 7 == 0) soup.point(v) = soup.point(v) + geometry::Vector(3e-8, -3e-8, 0);
+  tests::Recorder recorder;
+  jobs::DoctorJob job;
+  job.mesh = file_of(soup);
+  job.repair = true;
+  const jobs::DoctorReport mended = jobs::doctor(job, recorder);
+  CHECK(find(mended.found, "soup"));
+  CHECK(mended.left.empty());
+  CHECK(mended.mesh.mesh->number_of_vertices() == sheet.number_of_vertices());
+  CHECK(mended.mesh.mesh->number_of_edges() == sheet.number_of_edges());
+}
+
+TEST_CASE("doctor: garments that fell apart at their seams elsewhere are whole after repair", "[release]") {
+  const fs::path wild = tests::shared_dir() / "wild";
+  if (!fs::exists(wild / "tjunction.obj")) {
+    WARN("skipped: no shared data");
+    return;
+  }
+  const auto mended = [&](const char* name) {
+    tests::Recorder recorder;
+    jobs::DoctorJob job;
+    job.mesh = wild / name;
+    job.repair = true;
+    return jobs::doctor(job, recorder);
+  };
+  const jobs::DoctorReport seam = mended("seam_1e-5.obj"), yoke = mended("tjunction.obj");
+  REQUIRE(find(seam.found, "seams_apart"));
+  CHECK(find(seam.found, "seams_apart")->count == 52);
+  REQUIRE(find(yoke.found, "t_junctions"));
+  CHECK(find(yoke.found, "t_junctions")->count == 18);
+  for (const jobs::DoctorReport* report : {&seam, &yoke}) {
+    CHECK(report->left.empty());
+    CHECK(geometry::measure(report->mesh.mesh).components == 1);
+    CHECK(geometry::measure(report->mesh.mesh).boundary_loops == 2);
+  }
+}
+
 TEST_CASE("doctor: a body that lies along z is asked about, unless somebody says what is up") {
   tests::Recorder recorder;
   const jobs::DoctorReport report = examine(shirt(), lying(mannequin()));
