@@ -38,7 +38,10 @@ TEST_CASE("strict JSON: every command's report is read, and is as its schema say
   report_of("drape " + skirt + body + " --subdivide 0 --band top=0.95" + out("worn.ply"));
   report_of("drape " + skirt + body + " --subdivide 0 --made-for " + source_file("meshes/mannequin.obj") +
             out("brought.ply"));
-  report_of("wrinkle " + skirt + " " + source_file("meshes/strokes/flared_skirt.json") + body +
+  std::ofstream(scratch / "one.json")
+      << "{\"strokes\": [{\"name\": \"fold\", \"height\": 0.02, \"width\": 0.06, "
+         "\"points\": [[0, 0.784, 0.1669], [0, 0.492, 0.182]]}]}";
+  report_of("wrinkle " + skirt + " " + (scratch / "one.json") + body +
             " --subdivide 0 --pin-loop top --settle --made-for " + source_file("meshes/mannequin.obj") +
             out("drawn_and_brought.ply"));
   report_of("drape " + (scratch / "w.ply") + " --pin-loop top --self-contact on" + out("hangs.ply"));

@@ -44,7 +44,8 @@ export function studio(...words) {
 const browser = await chromium.launch({
   executablePath: browserAt,
   args: ["--no-sandbox", "--headless", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
-    "--disable-component-update", "--disable-sync", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
+    "--disable-component-update", "--disable-sync", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+    "--webgl-antialiasing-mode=none"],  // as the processor draws all pictures, which takes most of a test's time
 });
 
 /** Polled from here: the page's policy has no eval, which waitForFunction would need. */
@@ -58,9 +59,10 @@ export async function until(what, holds, minutes = 4) {
   }
 }
 
-/** Opens the page, and waits for so many meshes: the cloth, and a body where there is one. */
-export async function open(url, meshesShown = 2) {
-  const tab = await browser.newPage({ viewport: { width: 1200, height: 800 } });
+/** Opens the page, and waits for so many meshes: the cloth, and a body where there is one. The layout is that of 1,200 x 800;
+ * the picture has a quarter of the pixels, since the processor draws it, unless thin lines are looked for (`scale` 1). */
+export async function open(url, meshesShown = 2, scale = 0.5) {
+  const tab = await browser.newPage({ viewport: { width: 1200, height: 800 }, deviceScaleFactor: scale });
   const faults = [];
   tab.on("pageerror", (e) => faults.push(String(e)));
   tab.on("console", (m) => m.type() === "error" && faults.push(m.text()));
@@ -103,9 +105,9 @@ export async function stroke(tab, points) {
 
 export const strokesIn = (folder) => JSON.parse(readFileSync(join(scratch, folder, "strokes.json"), "utf8")).strokes;
 
-/** The picture, once its lines have faded and it stays the same for a while: a slow machine draws later. */
+/** The picture, once its lines have faded, no finer one is to come, and it stays the same: a slow machine draws later. */
 export async function still(seen) {
-  await until("the lines have faded", async () => (await seen.tab.locator("canvas[data-fresh]").count()) === 0);
+  await until("the lines have faded, and all is drawn", async () => (await seen.tab.locator("canvas:is([data-fresh], [data-due])").count()) === 0);
   let last = await seen.pixels();
   await until("the picture holds still", async () => {
     await seen.tab.waitForTimeout(400);

@@ -26,8 +26,12 @@ const place = async ({ tab }, x, y) => {
   return [box.x + x * box.width, box.y + y * box.height];
 };
 
+/** All lines are in the folder's file: the word of a save may be that of the one before. */
+const savedLines = (seen, folder) => until("saved", async () =>
+  (await seen.words()).startsWith("Saved") && strokesIn(folder).length === (await seen.lines()));
+
 async function fromTheGallery() {
-  const program = await studio(), seen = await open(program.url, 0), dialog = seen.tab.locator("dialog.open");
+  const program = await studio(), seen = await open(program.url, 0, 1), dialog = seen.tab.locator("dialog.open");
   await until("the gallery", async () => (await dialog.getByRole("button").count()) > 3);
   const widths = await dialog.locator(".gallery img").evaluateAll((list) => list.map((img) => img.naturalWidth));
   assert.deepEqual(widths, [240, 240, 240, 240], "each garment has its picture");
@@ -270,7 +274,7 @@ async function snaps() {
     if (key) await tab.keyboard.up(key);
     await seen.at(step + 1);
     await tab.keyboard.press("Control+s");
-    await until("saved", async () => (await seen.words()).startsWith("Saved"));
+    await savedLines(seen, "panels");
     return strokesIn("panels").at(-1).points.map(([x]) => x);
   };
   await press(seen, "Ridge");
@@ -305,7 +309,7 @@ async function pressed(seen) {
     await act("mouseReleased", 0.44, 0.75);
     await seen.at(step + 1);
     await tab.keyboard.press("Control+s");
-    await until("saved", async () => (await seen.words()).startsWith("Saved"));
+    await savedLines(seen, "panels");
     return strokesIn("panels").at(-1).height;
   };
   assert.equal(await curve.count(), 0, "no pen has come yet");

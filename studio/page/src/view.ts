@@ -180,6 +180,7 @@ export class View {
   draw() {
     if (this.asked) return;
     this.asked = true;
+    this.canvas.dataset.due = ""; // which is for tests: a picture, or a finer one, is to come
     requestAnimationFrame(() => {
       this.asked = false;
       if (this.isRecording) return;
@@ -187,6 +188,7 @@ export class View {
       clearTimeout(this.fineSoon);
       if (this.isCoarse || this.timed !== this.frame)
         this.fineSoon = window.setTimeout(() => this.renderFine(), 300);
+      else delete this.canvas.dataset.due;
     });
   }
 
@@ -199,6 +201,7 @@ export class View {
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)); // waits until it is drawn
     this.takes = performance.now() - start;
     this.timed = this.frame;
+    if (!this.asked) delete this.canvas.dataset.due;
   }
 
   private render(isCoarse: boolean) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <functional>
 #include <random>
@@ -18,7 +19,7 @@ using io::MeshFormat;
 
 namespace {
 
-constexpr int mutants = 1000;
+constexpr int mutants = std::max(250, FURROW_PROPERTY_CASES);
 
 /// What breaks readers: numbers at the ends of types, words for no number, levels, texts cut off.
 const std::vector<std::string> poisons = {"nan",
@@ -76,7 +77,7 @@ std::string mutated(std::string bytes, std::mt19937& random) {
   return bytes;
 }
 
-/// Reads 1,000 mutants: each is read, or refused as content or as a wrong option. Counts both.
+/// Reads mutants: each is read, or refused as content or as a wrong option. Counts both.
 void check_mutants(const std::string& valid, const std::function<void(const std::string&)>& read) {
   std::mt19937 random(1017);
   REQUIRE_NOTHROW(read(valid));
