@@ -14,6 +14,7 @@
 #include "io/base/field_words.h"
 #include "io/base/lower_case.h"
 #include "io/picture/png_file.h"
+#include "io/picture/render_scene.h"
 #include "io/scene/relocated.h"
 #include "io/scene/scene_rules.h"
 #include "jobs/base/read_inputs.h"
@@ -152,8 +153,25 @@ WrinkleJob job_of(const WrinkleArguments& a) {
   return job;
 }
 
-void write_preview(const WrinkleReport& report, const WrinkleArguments& a) {
-  const io::RenderScene scene = preview_scene(report);
+/// The body that the garment rests on.
+std::optional<io::RenderMesh> body_shown(const WrinkleReport& report, const WrinkleJob& job,
+                                         const WrinkleArguments& a) {
+  if (!report.rest) return std::nullopt;
+  const io::Scene around = jobs::scene_of(job.settle->settings, job.settle->folder);
+  if (!around.body) return std::nullopt;
+  CommonArguments silent = in_frame(a, report.frame);  // its repairs are told already
+  silent.quiet = true;
+  if (around.body->unit) silent.unit = around.body->unit;
+  io::RenderMesh body =
+      io::render_mesh_from(read_mesh(around.body->mesh.string(), silent).mesh, io::Style::body);
+  body.colour = io::body_colour;
+  body.framed = false;
+  return body;
+}
+
+void write_preview(const WrinkleReport& report, const WrinkleJob& job, const WrinkleArguments& a) {
+  io::RenderScene scene = preview_scene(report);
+  if (const auto body = body_shown(report, job, a)) scene.meshes.push_back(*body);
   const io::RenderOptions options = render_options({&scene, 1}, a.camera);
   io::write_png(a.preview, io::render(scene, options));
   save_camera(options, a.camera);
@@ -193,7 +211,7 @@ int wrinkle(const WrinkleArguments& a) {
   Terminal terminal(a, a.job.settle ? a.job.budget : unlimited);
   const WrinkleReport report = jobs::wrinkle(job, terminal);
   const CommonArguments common = in_frame(a, report.frame);
-  if (!a.preview.empty()) write_preview(report, a);
+  if (!a.preview.empty()) write_preview(report, job, a);
   if (a.out == "-") write_mesh(report.garment, common);
   if (a.inserted == "-") write_mesh("-", inserted_garment(report), common);
   Json json = to_json(report);
@@ -231,8 +249,8 @@ void add_wrinkle(CLI::App& sub, WrinkleArguments& a) {
   begin_group(sub, group::picture);
   sub.add_option(
       "--picture", a.preview,
-      "PNG of what is inserted where, before anything is displaced, faces that cross in magenta; without "
-      "-o no mesh is written");
+      "PNG of what is inserted where, before anything is displaced, or with --settle of the garment at rest "
+      "on its body, faces that cross in magenta; without -o no mesh is written");
   a.flags.add_to(sub, io::used_by::wrinkle);
   a.camera.quality = "draft";  // a look before anything is changed: four times faster than normal
   add_camera_options(sub, a.camera);

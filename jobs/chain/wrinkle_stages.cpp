@@ -9,7 +9,21 @@
 
 namespace furrow::jobs {
 
+namespace {
+
+void mark_crossings(const geometry::Mesh& mesh, io::RenderMesh& shown) {
+  const auto crossing = geometry::find_crossings(mesh, geometry::find_parts(mesh)).faces;
+  io::mark_faces(shown, std::vector<geometry::Index<geometry::Face>>(crossing.begin(), crossing.end()));
+}
+
+}  // namespace
+
 io::RenderScene preview_scene(const WrinkleReport& report) {
+  if (report.rest) {
+    io::RenderScene scene{{io::render_mesh_from(report.garment.mesh)}, {}};
+    mark_crossings(report.garment.mesh, scene.meshes[0]);
+    return scene;
+  }
   std::vector<double> heights;
   const io::WrinkleRecord record = io::find_wrinkle_record(report.garment).value();
   for (const io::WrinkleRecord::Line& line : record.lines)
@@ -20,10 +34,7 @@ io::RenderScene preview_scene(const WrinkleReport& report) {
   for (geometry::Face f : report.drawn.round.report.insertion.changed_faces)
     if (stages.inserted->has_valid_index(f)) changed.push_back(f);
   io::RenderScene scene = io::preview_scene(stages.inserted, changed, stages.before->num_vertices(), heights);
-  const auto crossing =
-      geometry::find_crossings(stages.inserted, geometry::find_parts(stages.inserted)).faces;
-  io::mark_faces(scene.meshes[0],
-                 std::vector<geometry::Index<geometry::Face>>(crossing.begin(), crossing.end()));
+  mark_crossings(stages.inserted, scene.meshes[0]);
   return scene;
 }
 

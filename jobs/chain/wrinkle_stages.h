@@ -5,7 +5,8 @@
 
 namespace furrow::jobs {
 
-/// The mesh with its vertices inserted as a picture, before anything is displaced. The report has stages.
+/// What came to rest, without its body; else the mesh with its vertices inserted, before anything is
+/// displaced. Faces that cross are marked. The report has stages.
 io::RenderScene preview_scene(const WrinkleReport& report);
 /// The garment as it was after insertion and before smoothing. The report has stages.
 io::MeshFile inserted_garment(const WrinkleReport& report);

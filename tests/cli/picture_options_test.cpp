@@ -47,6 +47,27 @@ int reds(const io::Image& image) {
   return count;
 }
 
+TEST_CASE("wrinkle: with --settle the picture shows the garment at rest on its body, else what is inserted",
+          "[release]") {
+  const ScratchDirectory scratch;
+  const std::string body = source_file("meshes/mannequin.obj"), rests = scratch / "rests.ply";
+  const auto picture = [&](const std::string& arguments, const std::string& name) {
+    const Run run =
+        run_furrow(arguments + (scratch / name) + " -q --view front --size 80,80 --quality draft");
+    INFO(run.err);
+    CHECK(run.exit_code == 0);
+    return io::read_png(scratch / name).rgb;
+  };
+  write_text(scratch / "lines.json",
+             R"({"strokes": [{"height": 0.015, "points": [[0, 0.9, 0.2], [0, 0.7, 0.2]]}]})");
+  const std::string draws =
+      "wrinkle " + source_file("meshes/skirt.obj") + " " + (scratch / "lines.json") + " --max-distance 0.2 ";
+  const auto settled = picture(
+      draws + "--settle --subdivide 0 --body " + body + " -o " + rests + " --picture ", "settled.png");
+  CHECK(settled == picture("render " + rests + " --no-lines --body " + body + " -o ", "rests.png"));
+  CHECK(settled != picture(draws + "--picture ", "inserted.png"));
+}
+
 TEST_CASE("render: --colour dyes the garment, --figure brings the whole body into the picture") {
   const SheetAndPole f;
   const int whole = reds(f.picture("--colour '#c02010'"));
