@@ -90,6 +90,13 @@ io::MeshFile read_garment(const std::string& path, const CommonArguments& common
   return jobs::read_garment(path, {common, terminal}, what);
 }
 
+std::optional<io::MeshFile> read_body_of(const io::Scene& scene, CommonArguments common) {
+  if (!scene.body) return std::nullopt;
+  common.quiet = true;
+  if (scene.body->unit) common.unit = scene.body->unit;
+  return read_mesh(scene.body->mesh.string(), common);
+}
+
 void write_mesh(const io::MeshFile& file, const CommonArguments& common) {
   write_mesh(common.out, file, common);
 }

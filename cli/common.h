@@ -59,6 +59,10 @@ io::MeshFile read_mesh(const std::string& path, const CommonArguments& common);
 io::MeshFile read_garment(const std::string& path, const CommonArguments& common,
                           const std::string& what = "garment");
 
+/// The body of a scene, if it has one, for a picture of what a job wrote: silently, as its repairs have been
+/// reported by the job.
+std::optional<io::MeshFile> read_body_of(const io::Scene& scene, CommonArguments common);
+
 /// Writes the mesh to common.out.
 void write_mesh(const io::MeshFile& file, const CommonArguments& common);
 /// Writes it to another file; "-" is OBJ to standard output.

@@ -90,13 +90,7 @@ void write_picture(DrapeJobReport& report, const DrapeArguments& a, const Common
   const FitColour colour = a.colour == "distance" ? FitColour::distance : FitColour::strain;
   std::vector<Draped>& all = report.garments;
   const io::FitScale scale = fit_scale(colour, all[0].fit_options);
-  CommonArguments silent = common;  // its repairs are told already
-  silent.quiet = true;
-  std::optional<io::MeshFile> body;
-  if (report.scene.body) {
-    if (report.scene.body->unit) silent.unit = report.scene.body->unit;
-    body = read_mesh(report.scene.body->mesh.string(), silent);
-  }
+  const std::optional<io::MeshFile> body = read_body_of(report.scene, common);
   std::vector<FitPanel> panels;
   std::vector<const geometry::Mesh*> over;
   for (Draped& d : all) {

@@ -147,7 +147,7 @@ WrinkleJob job_of(const WrinkleArguments& a) {
   check_rule(a, job);
   if (job.keep) job.keep = surroundings(a, job);
   if (job.settle) job.settle = surroundings(a, job);
-  job.wants_stages = !a.preview.empty();
+  job.wants_stages = !a.preview.empty() && !job.settle;
   job.more_outputs = {a.preview, a.camera.save_camera};
   job.more_inputs = {a.camera.camera};
   return job;
@@ -158,12 +158,9 @@ std::optional<io::RenderMesh> body_shown(const WrinkleReport& report, const Wrin
                                          const WrinkleArguments& a) {
   if (!report.rest) return std::nullopt;
   const io::Scene around = jobs::scene_of(job.settle->settings, job.settle->folder);
-  if (!around.body) return std::nullopt;
-  CommonArguments silent = in_frame(a, report.frame);  // its repairs are told already
-  silent.quiet = true;
-  if (around.body->unit) silent.unit = around.body->unit;
-  io::RenderMesh body =
-      io::render_mesh_from(read_mesh(around.body->mesh.string(), silent).mesh, io::Style::body);
+  const std::optional<io::MeshFile> file = read_body_of(around, in_frame(a, report.frame));
+  if (!file) return std::nullopt;
+  io::RenderMesh body = io::render_mesh_from(file->mesh, io::Style::body);
   body.colour = io::body_colour;
   body.framed = false;
   return body;
@@ -204,6 +201,17 @@ Lines wrinkle_lines(const Json& report) {
   return lines;
 }
 
+/// What a user may call next; empty: nothing.
+std::vector<std::string> next_command(const WrinkleArguments& a, const WrinkleReport& report) {
+  if (a.out.empty() || a.out == "-") return {};
+  if (!a.state.empty()) return {"furrow", "simulate", "--state", a.out, "-o", "worn.ply"};
+  if (report.rest)
+    return a.preview.empty() ? std::vector<std::string>{"furrow", "render", a.out, "-o", "rests.png"}
+                             : std::vector<std::string>{};
+  if (a.strokes.empty()) return {"furrow", "simulate", a.out, "--body", "BODY", "-o", "worn.ply"};
+  return {"furrow", "wrinkle", a.in, a.strokes, "--settle", "--body", "BODY", "-o", "rests.ply"};
+}
+
 int wrinkle(const WrinkleArguments& a) {
   check_call(a);
   if (a.job.settle) catch_interrupts();
@@ -216,15 +224,10 @@ int wrinkle(const WrinkleArguments& a) {
   if (a.inserted == "-") write_mesh("-", inserted_garment(report), common);
   Json json = to_json(report);
   json["written"] = names_of_files({a.out, a.inserted, a.smoothed, a.preview, a.camera.save_camera});
-  const bool has_file = !a.out.empty() && a.out != "-";
-  std::vector<std::string> next;
-  if (has_file && report.rest && a.preview.empty()) next = {"furrow", "render", a.out, "-o", "rests.png"};
-  if (has_file && !report.rest)
-    next = a.state.empty()
-               ? std::vector<std::string>{"furrow", "simulate", a.out, "--body", "BODY", "-o", "worn.ply"}
-               : std::vector<std::string>{"furrow", "simulate", "--state", a.out, "-o", "worn.ply"};
   print_report(json, a,
-               {wrinkle_lines(json), {a.out, a.inserted, a.smoothed, a.preview, a.camera.save_camera}, next});
+               {wrinkle_lines(json),
+                {a.out, a.inserted, a.smoothed, a.preview, a.camera.save_camera},
+                next_command(a, report)});
   for (const Warning& w : report.failures) std::cerr << "error: " << worded(w.text) << "\n";
   if (report.budget_spent) report_spent_budget(a.job.budget, {a.out});
   return exit_code_of(interrupted(), report.failures.empty() && !report.budget_spent);
@@ -235,6 +238,8 @@ int run_wrinkle(WrinkleArguments& a) {
   a.inserted = a.job.inserted.string();
   a.smoothed = a.job.smoothed.string();
   a.state = a.job.state_path.string();
+  // A look before anything is changed takes a quarter of normal quality.
+  if (!a.job.settle && !a.typed->count("--quality")) a.camera.quality = "draft";
   return wrinkle(a);
 }
 
@@ -252,7 +257,6 @@ void add_wrinkle(CLI::App& sub, WrinkleArguments& a) {
       "PNG of what is inserted where, before anything is displaced, or with --settle of the garment at rest "
       "on its body, faces that cross in magenta; without -o no mesh is written");
   a.flags.add_to(sub, io::used_by::wrinkle);
-  a.camera.quality = "draft";  // a look before anything is changed: four times faster than normal
   add_camera_options(sub, a.camera);
 }
 

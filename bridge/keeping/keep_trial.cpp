@@ -24,8 +24,8 @@ constexpr int look_steps = 100;     // between two moments that are looked at, h
 constexpr double first_look = 0.5, look = 0.1;
 constexpr double calm_dt = 1.0 / 30;   // of implicit steps, where nothing blows [s]
 constexpr double gust_of_euler = 1.6;  // such steps take so much out of a swing that gusts blow stronger
-// What moves so slowly, for so long, that it would take a second to lose what a line may lose, is calm.
-constexpr double second = 1, calm_for = 0.3;  // [s]
+// Calm is what has moved for so long so slowly that no line is lost within a second [s].
+constexpr double calm_for = 0.3, lost_in = 1;
 constexpr double least_share = 0.005;         // of the mean edge: what is lower is not told from the mesh
 constexpr double never = std::numeric_limits<double>::infinity();
 
@@ -198,11 +198,11 @@ struct Setting {
     return shares_of_heights(meter.heights(cloth.particles), drawn);
   }
 
-  /// Slower than that, no line leaves its bounds within a second [m/s].
+  /// Slower than that, no line leaves its bounds within lost_in [m/s].
   double calm_speed() const {
     double least = never;
     for (const double height : drawn) least = std::min(least, std::abs(height));
-    return (1 - o.kept) * least / second;
+    return (1 - o.kept) * least / lost_in;
   }
 
   physics::SimulateOptions options_of(const Part& part) const {
@@ -222,7 +222,8 @@ struct Setting {
     CalmWatch watch(calm_speed());
     bool calm = false;
     const auto see = [&](const physics::SimulateProgress& now) {
-      const bool looks = options.observe_steps == 1 || now.step % look_steps == 0 || now.time >= part.until;
+      const bool looks = physics::solves_contact(options.integrator) || now.step % look_steps == 0 ||
+                         now.time >= part.until;
       if (looks && now.time >= run.next_look) {
         note(shares(run.cloth), worst);
         run.next_look += look;

@@ -460,6 +460,25 @@ TEST_CASE("keep_lines: a trial asks once on its way, and what ends there is not 
   CHECK(calm.kept_gust == calm.kept);
 }
 
+TEST_CASE("try_shape: calm ends once nothing moves\, but not that of a shape that is not stable") {
+  Hung hung(1e-4);
+  hung.options.seconds = 5;
+  hung.options.gust = 0;
+  hung.options.run.integrator = physics::Integrator::implicit;
+  REQUIRE(hung.keep().certificate.stable());
+  bridge::LineMeter meter(hung.mesh, {}, {});
+  const auto seen = [&](bool stable) {
+    double farthest = 0;
+    bridge::try_shape(hung.cloth, stable, {}, hung.options, meter, {}, [&](double share) {
+      farthest = std::max(farthest, share);
+      return true;
+    });
+    return farthest;
+  };
+  CHECK(seen(true) < 0.5);
+  CHECK(seen(false) == Approx(1));
+}
+
 TEST_CASE("keep_lines: a line of 0.01 mm is refused before anything is tried, and told what to do") {
   Hung hung(1e-4, {}, 1, 0.02, bridge::Bending::hinge, 1e-5);
   const bridge::KeepReport report = hung.keep();
