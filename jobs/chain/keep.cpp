@@ -23,9 +23,11 @@
 #include "jobs/cloth/prepare_garment.h"
 #include "jobs/cloth/recorded_material.h"
 #include "jobs/cloth/scene_cloth.h"
+#include "jobs/draw/recorded_drawing.h"
 #include "jobs/move/run_until_drawn.h"
 #include "jobs/move/run_warnings.h"
 #include "jobs/move/simulate.h"
+#include "jobs/rest/drape_garment.h"
 #include "physics/base/cancel_scope.h"
 #include "physics/cloth/pins.h"
 
@@ -85,12 +87,13 @@ double settled_gap(const io::SavedState& state, const WorldBody* body, double ga
   return settled ? state.contact_gap : 0;
 }
 
-/// The garment in its drawn shape, of a scene that draws at time 0 alone.
-SceneCloth drawn_by(const io::Scene& scene, const Context& context) {
+/// The garment in its drawn shape, of a scene that draws at time 0 alone. body: the scene's, if it is built.
+SceneCloth drawn_by(const io::Scene& scene, const Context& context,
+                    std::shared_ptr<WorldBody> body = nullptr) {
   io::Scene drawn = scene;  // what is kept, keep_lines() finds out
   drawn.keep = false;
   for (io::SceneLines& lines : drawn.lines) lines.keep = false;
-  return prepare_scene(drawn, context);
+  return prepare_scene(drawn, context, std::move(body));
 }
 
 /// What is wrong with keeping a garment as it lies on its body; empty: nothing. Friction may balance cloth
@@ -113,10 +116,23 @@ std::string why_unsettled(const SceneCloth& garment, const io::Scene& scene) {
   return on_few ? "a few of its vertices would have held it as it lay, and not stably" : "";
 }
 
+/// The scene that comes to rest: with a garment that is too coarse for its gap refined before its lines are
+/// drawn, also those that its file has; where `refines` is false, or nothing is gained, as it is.
+UndrawnScene rest_scene(const io::Scene& scene, bool refines, const WorldBody& body, const Context& context) {
+  const UndrawnScene as_it_is{scene, context.memory ? *context.memory : MemoryFiles{}};
+  UndrawnScene begun = undrawn(scene, context).value_or(as_it_is);
+  if (!refines || begun.scene.lines.empty()) return as_it_is;
+  SilentListener silent(context.listener);
+  const io::MeshFile garment = read_garment(begun.scene.garment, {context.frame, silent, &begun.memory});
+  begun.scene.subdivide = refinements_for_gap(garment.mesh, scene.simulation.contact_gap, body.tolerance());
+  return begun.scene.subdivide > 0 ? begun : as_it_is;
+}
+
 /// What drawn_by() gives; on a body that does not hold the garment well as it lies, once it has come to rest
 /// there, at the same gap.
-SceneCloth drawn_at_rest(const KeepJob& job, const io::Scene& scene, const Budget& budget,
+SceneCloth drawn_at_rest(const KeepJob& job, const OpenScene& open, const Budget& budget,
                          const Context& context, KeepReport& report) {
+  const io::Scene& scene = open.scene;
   SceneCloth garment = drawn_by(scene, context);
   std::string why;
   if (job.settle && scene.body) {
@@ -125,22 +141,27 @@ SceneCloth drawn_at_rest(const KeepJob& job, const io::Scene& scene, const Budge
     context.listener.progress("looking whether the body holds it", 1);
   }
   if (why.empty()) return garment;
-  const std::optional<MemoryFiles> settled =
-      settle_first(scene, garment.options.contact_gap, budget, context);
+  const bool refines = !open.document.root->value("garment", Json::object()).contains("subdivide");
+  const UndrawnScene begun = rest_scene(scene, refines, *garment.body, context);
+  SilentListener silent(context.listener);  // what there is to warn of is said already
+  const bool finer = begun.scene.subdivide > scene.subdivide;
+  if (finer) garment = drawn_by(begun.scene, {context.frame, silent, &begun.memory}, garment.body);
+  const std::optional<MemoryFiles> settled = settle_first(begun.scene, garment.options.contact_gap, budget,
+                                                          {context.frame, context.listener, &begun.memory});
   stop_if_cancelled(context);
   if (!settled) return garment;
   report.settled = true;
-  context.warn(
-      "settled_first",
-      scene.garment.string() + ": " + why + ", so it came to rest on the body " +
-          (scene.lines.empty() ? "with the lines that it has; `no_settle` keeps it where it lies"
-                               : "before its lines were drawn; `no_settle` draws them where it lies"),
-      scene.garment.string(), "`no_settle`");
-  io::Scene there = scene;
+  const bool drawn_there = !begun.scene.lines.empty();
+  context.warn("settled_first",
+               scene.garment.string() + ": " + why + ", so it came to rest on the body " +
+                   (drawn_there ? "before its lines were drawn; `no_settle` draws them where it lies"
+                                : "with the lines that it has; `no_settle` keeps it where it lies"),
+               scene.garment.string(), "`no_settle`");
+  if (finer) warn_of_refining(begun.scene, begun.scene.subdivide, "`garment.subdivide=0`", context);
+  io::Scene there = begun.scene;
   there.subdivide = 0;
-  SilentListener silent(context.listener);  // what there is to warn of is said already
-  SceneCloth rests = drawn_by(there, {context.frame, silent, &*settled});
-  if (scene.lines.empty())
+  SceneCloth rests = drawn_by(there, {context.frame, silent, &*settled}, garment.body);
+  if (!drawn_there)
     for (const Warning& lost : lost_lines(scene, measure_lines(rests.file, line_heights_by_id(garment.file))))
       context.listener.warn(lost);
   return rests;
@@ -303,7 +324,7 @@ KeepReport keep_within(const KeepJob& job, Budget& budget) {
   if (!state && later && !(state = run_until_drawn(open, context))) return report;
   if (state) refuse_chain(state->file.mesh, job.state_path.string());
   SceneCloth garment =
-      state ? drawn_in(*state, scene, context) : drawn_at_rest(job, scene, budget, context, report);
+      state ? drawn_in(*state, scene, context) : drawn_at_rest(job, open, budget, context, report);
   const double time = state ? state->simulation.time : 0;
   stop_if_cancelled(context);
   report.ran = true;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/mesh/measures.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/rest/stiffness.h"
 #include "geometry/stroke/project_onto_surface.h"
@@ -126,6 +127,17 @@ std::optional<MemoryFiles> settle_first(const io::Scene& scene, double gap, cons
   }
   memory.meshes[scene.garment] = std::move(rests);
   return memory;
+}
+
+void warn_of_refining(const io::Scene& scene, int times, const std::string& as_given,
+                      const Context& context) {
+  context.warn("refined_first",
+               scene.garment.string() + ": refined " +
+                   (times == 1 ? "once" : std::to_string(times) + " times") +
+                   " before its lines were drawn, as its edges are too long to keep " +
+                   geometry::length_text(scene.simulation.contact_gap) + " from the body; " + as_given +
+                   " leaves it as it is",
+               scene.garment.string(), as_given);
 }
 
 }  // namespace furrow::jobs

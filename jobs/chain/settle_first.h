@@ -16,4 +16,8 @@ namespace furrow::jobs {
 std::optional<MemoryFiles> settle_first(const io::Scene& scene, double gap, const Budget& budget,
                                         const Context& context);
 
+/// Warns that a scene's garment was refined so many times before its lines were drawn, as its gap needs.
+/// as_given: the option that leaves it as it is.
+void warn_of_refining(const io::Scene& scene, int times, const std::string& as_given, const Context& context);
+
 }  // namespace furrow::jobs

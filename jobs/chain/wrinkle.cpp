@@ -20,6 +20,7 @@
 #include "jobs/base/read_inputs.h"
 #include "jobs/base/seam_ties.h"
 #include "jobs/chain/hold_drawn.h"
+#include "jobs/chain/settle_first.h"
 #include "jobs/chain/wrinkle_stages.h"
 #include "jobs/cloth/chain.h"
 #include "jobs/cloth/keep_at_rest.h"
@@ -258,14 +259,7 @@ RestPlan plan_rest(const WrinkleJob& job, geometry::Mesh& garment, const Context
   require_refinement(garment.number_of_faces(), 4, plan.refinements, "subdivide", context);
   if (plan.refinements == 0) return plan;
   geometry::loop_subdivide(garment, plan.refinements);
-  if (!job.subdivide)
-    context.warn("refined_first",
-                 plan.scene.garment.string() + ": refined " +
-                     (plan.refinements == 1 ? "once" : std::to_string(plan.refinements) + " times") +
-                     " before its lines were drawn, as its edges are too long to keep " +
-                     geometry::length_text(plan.scene.simulation.contact_gap) +
-                     " from the body; `subdivide=0` leaves it as it is",
-                 plan.scene.garment.string(), "`subdivide`");
+  if (!job.subdivide) warn_of_refining(plan.scene, plan.refinements, "`subdivide=0`", context);
   return plan;
 }
 

@@ -149,6 +149,51 @@ TEST_CASE("keep: a wrinkled file above a ball comes to rest on it with its lines
   CHECK(line.at("smoothed").get<double>() == Approx(0.004).epsilon(0.05));
 }
 
+TEST_CASE("keep: a drawing on a garment too coarse for its gap is made anew on a finer one that rests",
+          "[release]") {
+  const fs::path folder = tests::empty_folder("keep-coarse");
+  io::MeshFile sheet;
+  sheet.mesh = geometry::equilateral_sheet(0.3, 0.3, 0.04);
+  for (const geometry::Vertex v : sheet.mesh->vertices())
+    sheet.mesh->point(v) = {sheet.mesh->point(v).x(), 0.14, 0.15 - sheet.mesh->point(v).y()};
+  io::write_mesh(folder / "sheet.obj", sheet);
+  io::MeshFile ball;
+  ball.mesh = tests::icosphere(3, 0.12);
+  io::write_mesh(folder / "ball.obj", ball);
+  io::DrawnStroke ridge;
+  ridge.stroke.name = "ridge";
+  ridge.stroke.height = 0.008;
+  ridge.stroke.width = 0.06;
+  ridge.stroke.points = {{-0.06, 0.14, 0.01}, {0.06, 0.14, 0.01}};
+  jobs::WrinkleJob drawn;
+  drawn.garment = folder / "sheet.obj";
+  drawn.strokes = std::vector{ridge};
+  drawn.options.detail = geometry::Detail::coarse;
+  drawn.output = folder / "drawn.ply";
+  tests::Recorder silent, refining, leaving;
+  const std::size_t coarse = jobs::wrinkle(drawn, silent).garment.mesh->number_of_vertices();
+  jobs::KeepJob job;
+  job.seconds = 0.02;
+  job.gust = 0;
+  job.help = false;
+  job.scene.folder = folder;
+  job.scene.settings = io::parse_toml(
+      "[garment]\nmesh = \"drawn.ply\"\n[body]\nmesh = \"ball.obj\"\ntolerance = 0.001\n"
+      "[material]\npreset = \"cotton\"\nfriction = 0.6\n",
+      "test");
+  const jobs::KeepReport finer = jobs::keep(job, refining);
+  CHECK(refining.warned_of("refined_first"));
+  CHECK(finer.garment.mesh->number_of_vertices() > coarse);
+  REQUIRE(finer.record.lines.size() == 1);
+  CHECK(finer.record.options.find("--detail coarse") != std::string::npos);
+  REQUIRE(finer.lines.lines.size() == 1);
+  CHECK(finer.lines.lines[0].lowered > 0.9);  // of what was asked for
+  io::set_value(job.scene.settings, "garment.subdivide", 0, "test");
+  const jobs::KeepReport as_drawn = jobs::keep(job, leaving);
+  CHECK_FALSE(leaving.warned_of("refined_first"));
+  CHECK(as_drawn.garment.mesh->number_of_vertices() == coarse);
+}
+
 TEST_CASE("keep: a fold that lost half of the height asked before it is kept is lowered, and told so",
           "[release]") {
   jobs::KeepJob job = hung_ridge();
