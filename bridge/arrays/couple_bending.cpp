@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "geometry/figure/attached_parts.h"
 #include "geometry/fold/line_press.h"
 #include "geometry/mesh/edge_metric.h"
 #include "geometry/mesh/errors.h"
@@ -62,7 +63,8 @@ Edge edge_of(const Mesh& mesh, const physics::Hinge& hinge) {
 
 physics::CoupledHinges couple_bending(const Mesh& mesh, const GatherOptions& options, physics::Cloth& cloth) {
   if (options.bending != Bending::plate) return {};
-  if (cloth.particles.size() != mesh.number_of_vertices() || cloth.triangles.size() != mesh.number_of_faces())
+  const auto lengths = of_cloth(mesh, opposite_lengths(mesh, options.membrane));
+  if (cloth.particles.size() != mesh.number_of_vertices() || cloth.triangles.size() != lengths.size())
     throw std::invalid_argument("couple_bending: the cloth is not of this mesh");
   const std::vector<double> presses = hinge_presses(mesh, options.line_presses, options.line_widths);
   const auto own = find_map(mesh, attribute::hinge_stiffness);
@@ -73,8 +75,7 @@ physics::CoupledHinges couple_bending(const Mesh& mesh, const GatherOptions& opt
     apart.push_back(own && !std::isnan((*own)[e]));
     press.push_back(presses.empty() ? 1 : presses[e.idx()]);
   }
-  const auto lengths = opposite_lengths(mesh, options.membrane);
-  const std::vector<double> warp = options.weave ? warp_angles(mesh) : std::vector<double>{};
+  const std::vector<double> warp = options.weave ? of_cloth(mesh, warp_angles(mesh)) : std::vector<double>{};
   const physics::PlateRigidity rigidity =
       options.weave ? rigidity_of(*options.weave) : physics::isotropic_plate(options.rigidity);
   // Clamps stay doubled where hinges stay plain; the plate's count as they were.

@@ -11,7 +11,9 @@
 
 #include "bridge/arrays/convert.h"
 #include "bridge/arrays/gather_particles.h"
+#include "bridge/arrays/gather_riders.h"
 #include "bridge/arrays/tension_constants.h"
+#include "geometry/figure/attached_parts.h"
 #include "geometry/fold/line_press.h"
 #include "geometry/mesh/edge_metric.h"
 #include "geometry/mesh/errors.h"
@@ -97,20 +99,28 @@ class Gatherer {
       : mesh_(mesh),
         o_(options),
         rest_(*find_map(mesh, attribute::rest_length)),
-        rest_of_(rest_lengths(mesh)) {}
+        rest_of_(rest_lengths(mesh)),
+        rides_(rides_of(mesh)) {}
 
   GatheredCloth gather() {
     cloth_.particles = gather_particles(mesh_, o_.mass_rule);
-    cloth_.triangles = triangles_of(mesh_);
+    cloth_.triangles = of_cloth(mesh_, triangles_of(mesh_));
     for (Edge e : mesh_.edges()) require_length(rest_[e], mesh_.vertex(e, 0), mesh_.vertex(e, 1));
     if (!visit_triangles(o_.membrane, cloth_, [&](auto& elements) { add_triangles(elements); }))
       o_.membrane == Membrane::tension ? add_tension() : add_structural_springs();
     o_.bending == Bending::cross ? add_bending_springs() : add_hinges();
     add_struts();
+    gather_riders(mesh_, cloth_);
     return std::move(result_);
   }
 
  private:
+  bool is_cloth(Face f) const { return rides_.empty() || rides_[f.idx()] == Ride::none; }
+  bool is_cloth(Edge e) const {
+    const Halfedge h = mesh_.halfedge(e);
+    return is_cloth(mesh_.face(mesh_.is_border(h) ? mesh_.opposite(h) : h));
+  }
+
   double rest_area(Face f) const {
     const auto [a, b, c] = edge_lengths(mesh_, f, rest_of_);
     return triangle_area(a, b, c);
@@ -142,6 +152,7 @@ class Gatherer {
   void add_structural_springs() {
     const auto own = find_map(mesh_, attribute::stiffness);
     for (Edge e : mesh_.edges()) {
+      if (!is_cloth(e)) continue;
       const double k = stiffness_or(own, mesh_, e, [&] { return stiffness_of(e); });
       cloth_.structural.push_back(spring(mesh_.vertex(e, 0), mesh_.vertex(e, 1), rest_[e], k));
       result_.structural.push_back(e);
@@ -153,6 +164,7 @@ class Gatherer {
     const auto own = find_map(mesh_, attribute::tension);
     const std::vector<double> by_law = tension_constants(mesh_, o_.tension, o_.shear);
     for (Edge e : mesh_.edges()) {
+      if (!is_cloth(e)) continue;
       const double c = stiffness_or(own, mesh_, e, [&] { return by_law[e.idx()]; });
       const auto [a, b] =
           std::minmax({static_cast<int>(mesh_.vertex(e, 0)), static_cast<int>(mesh_.vertex(e, 1))});
@@ -176,6 +188,7 @@ class Gatherer {
     if (const auto& w = o_.weave) sheet = physics::woven_sheet({w->warp, w->weft, w->shear, w->poisson});
     const auto own = find_map(mesh_, attribute::triangle_rest_length);
     for (Face f : mesh_.faces()) {
+      if (!is_cloth(f)) continue;
       Triangle t;
       t.lambda = sheet.lame.lambda, t.mu = sheet.lame.mu;
       if (o_.weave)  // corner 0 is the target of first_of(f)
@@ -199,6 +212,7 @@ class Gatherer {
   void add_bending_springs() {
     const auto own = find_map(mesh_, attribute::bending_stiffness);
     for (const BendingSpring& b : bending_springs(mesh_)) {
+      if (!is_cloth(b.across)) continue;
       const double k = stiffness_or(own, mesh_, b.across, [&] {
         return b.count * spring_stiffness(b.rest_length, o_.mean_bending_length, o_.bending_stiffness);
       });
@@ -230,7 +244,7 @@ class Gatherer {
     const std::vector<double> presses = hinge_presses(mesh_, o_.line_presses, o_.line_widths);
     cloth_.hinge_law = o_.bending == Bending::cosine ? physics::HingeLaw::cosine : physics::HingeLaw::linear;
     for (Edge e : mesh_.edges()) {
-      if (mesh_.is_border(e)) continue;
+      if (mesh_.is_border(e) || !is_cloth(e)) continue;
       const double areas = areas_beside(e);
       if (!(areas > 0) && !(own && !std::isnan((*own)[e]))) continue;
       Halfedge h = mesh_.halfedge(e);  // from the lower end: a mesh that was saved gives the same bits
@@ -253,6 +267,7 @@ class Gatherer {
   const GatherOptions& o_;
   EdgeMap<double> rest_;
   std::vector<double> rest_of_;
+  std::vector<Ride> rides_;
   GatheredCloth result_;
   physics::Cloth& cloth_ = result_.cloth;
 };

@@ -18,6 +18,7 @@
 #include "physics/base/progress.h"
 #include "physics/base/require.h"
 #include "physics/cloth/patch_membrane.h"
+#include "physics/cloth/riders.h"
 #include "physics/rest/give_way.h"
 #include "physics/rest/settle.h"
 
@@ -105,8 +106,8 @@ constexpr double far = 0.25;  // [m] from the body, where cloth that nothing hol
 bool falls_past(physics::Cloth& cloth, const physics::Collider* body, const DrapeOptions& o,
                 const physics::SettleObserver& observer, physics::SettleReport& rest) {
   const std::vector<double>& inv_mass = cloth.particles.inv_mass;
-  const auto held = std::count(inv_mass.begin(), inv_mass.end(), 0);
-  const bool carried = held > 0 && (!o.held_aside || held == std::ssize(inv_mass));
+  const auto held = std::count(inv_mass.begin(), inv_mass.end(), 0) - std::ssize(cloth.riders);
+  const bool carried = held > 0 && (!o.held_aside || held == std::ssize(inv_mass) - std::ssize(cloth.riders));
   if (!body || o.plain || carried || o.settle.gravity.isZero() || rest.stopped || rest.touching > 0)
     return false;
   physics::SettleOptions fine = level_options(o, false, false);
@@ -202,6 +203,7 @@ Level begin(const Meshes& meshes, double disturbance, const PlaceNoise& noise, c
   DrapeOptions here = o;
   here.settle.self.drawn = level.drawn;
   begin_level(level.cloth, carried, {level.places, noise, disturbance}, body, here, level.report);
+  physics::place_riders(level.cloth);
   const physics::CancelScope way_up(cancels_way_up(o));
   physics::throw_if_cancelled("drape");
   return level;

@@ -17,6 +17,7 @@
 #include "geometry/mesh/property_names.h"
 #include "physics/base/progress.h"
 #include "physics/cloth/check_cloth.h"
+#include "physics/cloth/riders.h"
 #include "physics/rest/settle.h"
 
 namespace furrow::bridge {
@@ -301,6 +302,7 @@ KeepReport keep_lines(geometry::Mesh& mesh, physics::Cloth& cloth, const physics
   TriedPlan found = keeper.help({helped_lines(mesh, start.particles, meter, o)}, tally);
   if (!tally.interrupted) keeper.count_negative_eigenvalues(found);
 
+  physics::place_riders(found.outcome.cloth);
   scatter(found.outcome.cloth.particles, mesh);
   KeepReport report = report_of(found, o, meter, low, tally);
   report.pushed_out = pushed.moved;

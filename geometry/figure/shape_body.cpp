@@ -11,6 +11,7 @@
 #include "geometry/figure/repair_body.h"
 #include "geometry/figure/trunk_outline.h"
 #include "geometry/mesh/errors.h"
+#include "geometry/mesh/preconditions.h"
 
 namespace furrow::geometry {
 namespace {

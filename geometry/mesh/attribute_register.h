@@ -101,6 +101,7 @@ inline const std::tuple attribute_register{
     Attribute{attribute::group, "", {copy, copy}, {PlyValue::index, {"group"}}},
     Attribute{attribute::material, "", {copy, copy}, {PlyValue::index, {"material"}}},
     Attribute{attribute::warp, "", {copy, copy}, {PlyValue::direction, {"warp_x", "warp_y", "warp_z"}}},
+    Attribute{attribute::rides, "", {copy, copy}, {PlyValue::count, {"rides"}}},
     Attribute{attribute::generation,
               "",
               {computed, computed, "MeshEditor; a subdivision leaves what CGAL's step leaves"},

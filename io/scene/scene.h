@@ -119,8 +119,9 @@ struct SceneOutput {
 struct Scene {
   std::string title;
   std::filesystem::path garment;
-  int layer = -1;     ///< of several garments, from the inside to the outside; -1: by their place
-  bool touch = true;  ///< of several garments, whether it touches the others
+  int layer = -1;      ///< of several garments, from the inside to the outside; -1: by their place
+  bool touch = true;   ///< of several garments, whether it touches the others
+  bool attach = true;  ///< parts that lie on other cloth ride on it (jobs/cloth/attach_parts.h)
   std::optional<double> thickness;    ///< of the cloth, where layers and folds are kept apart [m]; none: 1 mm
   int subdivide = 0;                  ///< times that Loop subdivision is applied before the first line
   int allow_crossings = 0;            ///< pairs of faces that may cross at the end; >= 0

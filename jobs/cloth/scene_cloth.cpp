@@ -12,6 +12,7 @@
 #include "jobs/base/gate.h"
 #include "jobs/base/read_inputs.h"
 #include "jobs/base/seam_ties.h"
+#include "jobs/cloth/attach_parts.h"
 #include "jobs/cloth/chain.h"
 #include "jobs/cloth/choose_steps.h"
 #include "jobs/cloth/keep_at_rest.h"
@@ -80,6 +81,7 @@ io::MeshFile begin_garment(const io::Scene& scene, const Context& context, Chain
   if (scene.material.warp != "auto" || scene.material.is_woven())
     lay_warp(file, scene.material.warp, scene.material.is_woven(), scene.garment.string(), context);
   subdivide_tied(file, scene, context);
+  if (scene.attach) attach_parts(file, scene.garment.string(), find_pins(file, scene.pins), context);
   return file;
 }
 

@@ -149,15 +149,8 @@ void measure_draped(const DrapePlan& plan, Draped& draped) {
 }
 
 void carry_and_measure(const DrapePlan& plan, std::span<const int> loose, Draped& draped) {
-  const auto carry = [&](Draped& d, LooseCarry how) {
-    carry_loose_parts(d.file.mesh, plan.as_read.mesh, d.refinements, loose, how);
-    measure_draped(plan, d);
-  };
-  carry(draped, LooseCarry::as_one);
-  if (!draped.measured || draped.succeeds()) return;
-  Draped other = draped;
-  carry(other, LooseCarry::by_place);
-  if (is_better(other.end, draped.end, draped.limits)) draped = std::move(other);
+  carry_loose_parts(draped.file.mesh, plan.as_read.mesh, draped.refinements, loose);
+  measure_draped(plan, draped);
 }
 
 void take_facts(Draped& d) {
@@ -177,6 +170,7 @@ GivenGarment read_given(const io::Scene& scene, const BodyCollider* body, const 
                         const Context& context) {
   GivenGarment given{scene, {}};
   given.scene.subdivide = 0;
+  given.scene.attach = scene.attach && s.loose == LooseUse::hold;
   given.file = begin_garment(given.scene, context);
   if (body && body->made_for)
     given.placed = place(given.file.mesh, *body->made_for, *body, scene.garment.string(), context);

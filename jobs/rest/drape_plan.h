@@ -68,7 +68,7 @@ GivenGarment read_given(const io::Scene& scene, const BodyCollider* body, const 
 void measure_draped(const DrapePlan& plan, Draped& draped);
 
 /// The same of one with parts that were held aside (a vertex of each): first they go with the other parts, as
-/// rigid bodies, or place by place where that ends better.
+/// rigid bodies.
 void carry_and_measure(const DrapePlan& plan, std::span<const int> loose, Draped& draped);
 
 /// Its facts, of what was measured: all that the judge of ends knows of a drape.

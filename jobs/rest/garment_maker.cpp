@@ -97,6 +97,7 @@ physics::Cloth GarmentMaker::operator()(geometry::Mesh& mesh) {
   held_.assign(cloth.particles.size(), 0);
   for (const std::vector<int>& held : pins_)
     for (const int i : held) held_[std::size_t(i)] = 1;
+  for (const physics::Rider& rider : cloth.riders) held_[std::size_t(rider.particle)] = 1;
   if (!loose.empty()) hold_loose(mesh, cloth);
   if (scene_.material.membrane == bridge::Membrane::patches) physics::join_patches(cloth);
   told_thin_ |= couple_cloth(made, scene_, cloth, context_, !told_thin_);  // once, not at each level
@@ -124,7 +125,9 @@ DrapeForces GarmentMaker::forces_on(const physics::Cloth& cloth) const {
   return forces;
 }
 
-bool GarmentMaker::any_held() const { return std::find(held_.begin(), held_.end(), 1) != held_.end(); }
+bool GarmentMaker::any_held() const {
+  return std::any_of(pins_.begin(), pins_.end(), [](const auto& held) { return !held.empty(); });
+}
 
 /// Those of the level; the finer one's are found by what this one is.
 void GarmentMaker::tie_seams(const geometry::Mesh& mesh) {

@@ -26,6 +26,7 @@ class GarmentMaker {
 
   /// Whether a pin holds one of the last level's particles.
   bool any_held() const;
+  /// By particle of the last level: a pin holds it, or it rides on other cloth.
   const std::vector<char>& held() const { return held_; }
   /// On the cloth of the last level, as it lies.
   DrapeForces forces_on(const physics::Cloth& cloth) const;

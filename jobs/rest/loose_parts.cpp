@@ -11,7 +11,6 @@
 #include "geometry/mesh/struts.h"
 #include "geometry/refine/local_refinement.h"
 #include "geometry/refine/subdivide.h"
-#include "geometry/stroke/project_onto_surface.h"
 #include "physics/pairs/pair_distance.h"
 
 namespace furrow::jobs {
@@ -85,25 +84,6 @@ void remove_marked(geometry::Mesh& mesh, const geometry::Parts& parts, const std
     if (is_loose(parts.of_vertex[v])) mesh.remove_vertex(geometry::Vertex(geometry::Vertex::size_type(v)));
 }
 
-void carry_by_place(geometry::Mesh& draped, const geometry::Mesh& before, const geometry::Parts& parts,
-                    const std::vector<char>& loose) {
-  geometry::Mesh others = before;
-  remove_marked(others, parts, loose);
-  if (others.number_of_faces() == 0) return;
-  const geometry::SurfaceProjector surface(others);
-  for (const geometry::Vertex v : before.vertices()) {
-    const int part = parts.of_vertex[v.idx()];
-    if (part < 0 || !loose[std::size_t(part)]) continue;
-    const geometry::SurfaceHit hit = surface.closest(before.point(v));
-    const Corners corners = corners_of(before, hit.point.face);
-    const Vec3 off = bridge::to_eigen(before.point(v)) - bridge::to_eigen(hit.position);
-    const Eigen::Matrix3d turn =
-        frame_of(draped, corners).linear() * frame_of(before, corners).linear().transpose();
-    const Vec3 now = bridge::to_eigen(geometry::position_of(draped, hit.point)) + turn * off;
-    if (now.allFinite()) draped.point(v) = bridge::to_cgal(now);
-  }
-}
-
 /// Where vertices go as gaps are closed.
 struct NewPlaces {
   std::vector<int> of_vertex;  ///< -1: it is gone
@@ -149,11 +129,10 @@ geometry::Mesh refined_as(const geometry::Mesh& draped, const geometry::Mesh& gi
 }  // namespace
 
 void carry_loose_parts(geometry::Mesh& draped, const geometry::Mesh& given, int refinements,
-                       std::span<const int> seeds, LooseCarry carry) {
+                       std::span<const int> seeds) {
   const geometry::Mesh before = refined_as(draped, given, refinements);
   const geometry::Parts parts = geometry::find_parts(before);
   const std::vector<char> loose = seeded(parts, seeds);
-  if (carry == LooseCarry::by_place) return carry_by_place(draped, before, parts, loose);
   for (std::size_t part = 0; part < loose.size(); ++part) {
     if (!loose[part]) continue;
     const auto carrier = nearest_triangle(before, parts, loose, middle_of(before, parts, int(part)));

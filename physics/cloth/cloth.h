@@ -123,6 +123,15 @@ struct Cloth;
 /// particles it sees in the search's order. stiffness: a scale for its push [N/m].
 using ContactMaker = std::function<std::unique_ptr<ContactTerm>(const Cloth& cloth, double stiffness)>;
 
+/// A particle that is no cloth and rides on a triangle of it: a button's, an inner side's. It has no mass, so
+/// that nothing moves it but place_riders() (riders.h), which settle() and simulate() call.
+struct Rider {
+  int particle;
+  std::array<int, 3> triangle;  ///< particles that are not riders
+  Vec3 weights;                 ///< of these, for the point that it is off from; sum 1 [-]
+  Vec3 offset;                  ///< from there, in the triangle's frame [m]
+};
+
 /// The whole state of a cloth as plain arrays.
 struct Cloth {
   Particles particles;
@@ -134,6 +143,7 @@ struct Cloth {
   HingeLaw hinge_law = HingeLaw::linear;                     ///< of all hinges
   std::vector<std::array<int, 3>> triangles;                 ///< counter-clockwise from outside
   std::vector<std::shared_ptr<const Energy>> energies = {};  ///< a caller's own; none is null
+  std::vector<Rider> riders = {};
 };
 
 /// The one list of kinds of elements: calls visit(elements, law...) for each, in the order in which all sums

@@ -87,6 +87,11 @@ Cloth join_cloths(std::span<const Cloth> cloths) {
     if (!c.hinges.empty()) all.hinge_law = c.hinge_law;
     append_shifted(all.hinges, c.hinges, by);
     append_shifted(all.triangles, c.triangles, by);
+    for (Rider r : c.riders) {
+      r.particle += by;
+      shift(r.triangle, by);
+      all.riders.push_back(r);
+    }
     for (const auto& e : c.energies) all.energies.push_back(shifted(e, first, c.particles.size()));
   }
   return all;

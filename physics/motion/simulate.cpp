@@ -8,6 +8,7 @@
 
 #include "physics/base/progress.h"
 #include "physics/base/require.h"
+#include "physics/cloth/riders.h"
 #include "physics/contact/animated_contact.h"
 #include "physics/contact/rigid_contact.h"
 #include "physics/motion/simulate_report.h"
@@ -282,11 +283,13 @@ void Simulation::go_back(const std::vector<Vec4>& v, const WorkCounts& work) {
 bool Simulation::observe(const Observer& observer, const SimulateReport& report) {
   const WorkClock::Within output(clock_, WorkPart::output);
   motion_->unpack(cloth_.particles);
+  place_riders(cloth_);
   return observer({state_.time, state_.step, report.dt, kinetic_energy(cloth_.particles)});
 }
 
 void Simulation::finish(SimulateReport& report) {
   motion_->unpack(cloth_.particles);
+  place_riders(cloth_);
   remember();
   measure(cloth_, world_, state_, options_.gravity, contact_options_, report);
   report.self = pairs_ ? pairs_->state(motion_->cloth()) : stepper_->self_contact();

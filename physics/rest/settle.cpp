@@ -13,6 +13,7 @@
 #include "physics/base/vector_sums.h"
 #include "physics/cloth/check_cloth.h"
 #include "physics/cloth/element_forces.h"
+#include "physics/cloth/riders.h"
 #include "physics/contact/anchored_contact.h"
 #include "physics/contact/face_contact.h"
 #include "physics/contact/residual_force.h"
@@ -502,7 +503,12 @@ SettleReport settle(Cloth& cloth, const Collider* collider, const SettleOptions&
     report.stopped = true;
     return report;
   }
-  const SettleReport report = settler->run(observer);
+  const auto placed = [&](const SettleProgress& progress) {
+    place_riders(cloth);
+    return observer(progress);
+  };
+  const SettleReport report = settler->run(observer ? SettleObserver(placed) : observer);
+  place_riders(cloth);
   for (Vec3& v : cloth.particles.v) v.setZero();
   return report;
 }

@@ -314,7 +314,7 @@ TEST_CASE("drape: --loose says what becomes of a scrap that nothing holds") {
   ScratchDirectory scratch;
   write_text(scratch / "a.obj",
              "v 0 0 0\nv 0.1 0 0\nv 0.1 0.1 0\nv 0 0.1 0\nf 1 2 3 4\n"
-             "v 0.05 0.05 0.1\nv 0.07 0.05 0.1\nv 0.05 0.06 0.1\nf 5 6 7\n");
+             "v 0.05 0.05 0.2\nv 0.07 0.05 0.2\nv 0.05 0.06 0.2\nf 5 6 7\n");
   const std::string call = "drape " + (scratch / "a.obj") + " --pin-vertices 2,3 -o " + (scratch / "b.obj");
   for (const auto& [use, done, vertices] :
        {std::tuple("", "held", 7), {" --loose hold", "held", 7}, {" --loose drop", "dropped", 4}}) {

@@ -10,7 +10,6 @@
 #include "io/scene/scene.h"
 #include "jobs/rest/drape.h"
 #include "jobs/rest/drape_starts.h"
-#include "jobs/rest/loose_parts.h"
 #include "tests/jobs/recorder.h"
 #include "tests/test_meshes.h"
 
@@ -102,6 +101,7 @@ TEST_CASE("drape: parts that nothing holds are found on every level, with contac
   add_button(sheet, {0.35, 0.155, 0});
   add_button(sheet, {0, 0.155, 0.33});
   jobs::DrapeJob job = job_on_ball(sheet);
+  io::set_value(job.scene.settings, "garment.attach", false, "the test");
   for (const int levels : {0, 1})
     for (const auto use : {jobs::SelfContactUse::on, jobs::SelfContactUse::off}) {
       job.subdivide = levels;
@@ -113,42 +113,6 @@ TEST_CASE("drape: parts that nothing holds are found on every level, with contac
       CHECK(lowest(report.garments[0].file.mesh) > -0.4);
       CHECK_FALSE(report.fails());
     }
-}
-
-TEST_CASE("loose_parts: a patch goes with the cloth under it, place by place") {
-  geometry::Mesh given = geometry::equilateral_sheet(0.3, 0.3, 0.02);
-  const std::size_t sheet = given.number_of_vertices();
-  const geometry::Mesh patch = geometry::equilateral_sheet(0.12, 0.12, 0.02);
-  std::vector<Vertex> copies;
-  for (const Vertex v : patch.vertices())
-    copies.push_back(given.add_vertex({patch.point(v).x(), patch.point(v).y() + 0.09, 0.003}));
-  for (const geometry::Face f : patch.faces()) {
-    std::vector<Vertex> corners;
-    for (const Vertex v : patch.vertices_around_face(patch.halfedge(f))) corners.push_back(copies[v.idx()]);
-    given.add_face(corners);
-  }
-  geometry::Mesh draped = given;  // the sheet is bent about y, the patch left behind
-  constexpr double radius = 0.08;
-  for (const Vertex v : draped.vertices())
-    if (v.idx() < sheet) {
-      const Point p = draped.point(v);
-      draped.point(v) = {radius * std::sin(p.x() / radius), p.y(),
-                         radius * std::cos(p.x() / radius) - radius};
-    }
-  const std::vector<int> seeds{int(sheet)};
-  const auto off = [&](jobs::LooseCarry carry) {
-    geometry::Mesh mesh = draped;
-    jobs::carry_loose_parts(mesh, given, 0, seeds, carry);
-    double most = 0;
-    for (const Vertex v : mesh.vertices())
-      if (v.idx() >= sheet) {
-        const Point p = mesh.point(v);
-        most = std::max(most, std::abs(std::hypot(p.x(), p.z() + radius) - radius - 0.003));
-      }
-    return most;
-  };
-  CHECK(off(jobs::LooseCarry::by_place) < 0.001);
-  CHECK(off(jobs::LooseCarry::as_one) > 0.01);
 }
 
 TEST_CASE("drape: of several starts the better by the judge is taken, whatever its energy") {

@@ -68,6 +68,8 @@ TEST_CASE("drape: with finest, loose parts go with the cloth, or are dropped", "
   const std::size_t cloth = sheet.number_of_vertices();
   add_button(sheet, 0.02, 0.12, 0.02);
   add_button(sheet, 0.4, 0.1, 0);
+  jobs::DrapeJob riding = job;
+  io::set_value(job.scene.settings, "garment.attach", false, "the test");
   const jobs::Draped held = jobs::drape(job, recorder).garments.at(0);
   INFO(to_json(held).dump(1));
   REQUIRE(held.loose.size() == 2);
@@ -77,6 +79,11 @@ TEST_CASE("drape: with finest, loose parts go with the cloth, or are dropped", "
   const jobs::Draped dropped = jobs::drape(job, recorder).garments.at(0);
   CHECK(geometry::find_parts(dropped.file.mesh).list.size() + 2 ==
         geometry::find_parts(held.file.mesh).list.size());
+  const jobs::Draped ridden = jobs::drape(riding, recorder).garments.at(0);
+  CHECK(recorder.warned_of("parts_attached"));
+  CHECK(ridden.loose.size() < 2);
+  CHECK(between(ridden.file.mesh, cloth, cloth + 1) < 0.02);
+  CHECK(ridden.file.mesh->point(geometry::Vertex(geometry::Vertex::size_type(cloth))).y() > 0.1);  // on the ball
 }
 
 TEST_CASE("drape: finest where it cannot be is refused, or said", "[long]") {

@@ -39,6 +39,7 @@ jobs::DrapeJob with_scraps(double size = 0.02) {
   add_scrap(sheet, 0.4, 0.1, 0, size);
   job.scene.memory.meshes["ball"].mesh = tests::icosphere(2, 0.1);
   job.scene.settings = io::parse_toml("[garment]\nmesh = \"sheet\"\n", "test");
+  io::set_value(job.scene.settings, "garment.attach", false, "the test");
   io::set_value(job.scene.settings, "body.mesh", "ball", "the test");
   io::set_value(job.scene.settings, "body.tolerance", 0.005, "the test");
   job.subdivide = 0;

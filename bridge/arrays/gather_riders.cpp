@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bridge/arrays/gather_riders.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "bridge/arrays/convert.h"
+#include "geometry/figure/attached_parts.h"
+#include "geometry/stroke/project_onto_surface.h"
+#include "physics/cloth/riders.h"
+
+namespace furrow::bridge {
+namespace {
+
+using geometry::Ride;
+
+/// What does not ride, as it was made; elements keep their numbers.
+geometry::Mesh cloth_as_made(const geometry::Mesh& mesh, const std::vector<Ride>& rides) {
+  geometry::Mesh made = mesh;
+  const std::vector<geometry::Point> places = geometry::places_as_made(mesh);
+  for (const geometry::Vertex v : made.vertices()) made.point(v) = places[v.idx()];
+  for (std::size_t f = 0; f < rides.size(); ++f)
+    if (rides[f] != Ride::none) made.remove_face(geometry::Face(geometry::Face::size_type(f)));
+  return made;
+}
+
+class RiderGatherer {
+ public:
+  RiderGatherer(const geometry::Mesh& mesh, const std::vector<Ride>& rides, physics::Cloth& cloth)
+      : mesh_(mesh),
+        rides_(rides),
+        cloth_(cloth),
+        places_(geometry::places_as_made(mesh)),
+        made_(cloth_as_made(mesh, rides)),
+        surface_(made_) {}
+
+  void gather() {
+    const geometry::Parts parts = geometry::find_parts(mesh_);
+    for (std::size_t part = 0; part < parts.list.size(); ++part) {
+      const Ride ride = rides_[parts.list[part].first.idx()];
+      std::vector<std::size_t> vertices;
+      for (std::size_t v = 0; v < parts.of_vertex.size(); ++v)
+        if (parts.of_vertex[v] == int(part)) vertices.push_back(v);
+      if (ride == Ride::rigid) add_rigid(vertices);
+      if (ride != Ride::by_place) continue;
+      const std::size_t first = cloth_.riders.size();
+      for (const std::size_t v : vertices) add(v, surface_.closest(places_[v]));
+      keep_to_one_side(std::span(cloth_.riders).subspan(first));
+    }
+  }
+
+ private:
+  void add_rigid(const std::vector<std::size_t>& vertices) {
+    geometry::Vector middle = CGAL::NULL_VECTOR;
+    for (const std::size_t v : vertices)
+      middle = middle + (places_[v] - CGAL::ORIGIN) / double(vertices.size());
+    const geometry::SurfaceHit hit = surface_.closest(CGAL::ORIGIN + middle);
+    for (const std::size_t v : vertices) add(v, hit);
+  }
+
+  /// Most of a part lies before the cloth, or behind it: so does all of it, a millimetre off at least.
+  static void keep_to_one_side(std::span<physics::Rider> part) {
+    constexpr double least = 0.001;  // [m]
+    const auto before =
+        std::count_if(part.begin(), part.end(), [](const auto& r) { return r.offset.z() > 0; });
+    const double side = 2 * before >= std::ssize(part) ? 1 : -1;
+    for (physics::Rider& r : part) r.offset.z() = side * std::max(side * r.offset.z(), least);
+  }
+
+  void add(std::size_t v, const geometry::SurfaceHit& hit) {
+    const geometry::Halfedge h = made_.halfedge(hit.point.face);
+    const std::array<geometry::Vertex, 3> corners{made_.source(h), made_.target(h),
+                                                  made_.target(made_.next(h))};
+    std::array<int, 3> triangle;
+    std::array<physics::Vec3, 3> at;
+    for (std::size_t i = 0; i < 3; ++i) {
+      triangle[i] = int(corners[i]);
+      at[i] = to_eigen(made_.point(corners[i]));
+    }
+    const auto& [a, b, c] = hit.point.barycentrics;
+    const physics::Vec3 weights(a, b, c);
+    if (!((at[1] - at[0]).eval().cross((at[2] - at[0]).eval()).norm() > 0)) return;
+    cloth_.riders.push_back(physics::rider_at(to_eigen(places_[v]), int(v), triangle, at, weights));
+    give_mass(cloth_.riders.back());
+  }
+
+  void give_mass(const physics::Rider& rider) {
+    physics::Particles& p = cloth_.particles;
+    const double mass = std::exchange(p.mass[std::size_t(rider.particle)], 0);
+    p.inv_mass[std::size_t(rider.particle)] = 0;
+    const physics::Vec3 shares = rider.weights.cwiseMax(0) / rider.weights.cwiseMax(0).sum();
+    for (int i = 0; i < 3; ++i) {
+      const auto corner = std::size_t(rider.triangle[std::size_t(i)]);
+      p.mass[corner] += mass * shares[i];
+      p.inv_mass[corner] = 1 / p.mass[corner];
+    }
+  }
+
+  const geometry::Mesh& mesh_;
+  const std::vector<Ride>& rides_;
+  physics::Cloth& cloth_;
+  std::vector<geometry::Point> places_;
+  geometry::Mesh made_;
+  geometry::SurfaceProjector surface_;
+};
+
+}  // namespace
+
+void gather_riders(const geometry::Mesh& mesh, physics::Cloth& cloth) {
+  const std::vector<Ride> rides = geometry::rides_of(mesh);
+  if (std::count(rides.begin(), rides.end(), Ride::none) == std::ssize(rides)) return;
+  if (std::count(rides.begin(), rides.end(), Ride::none) == 0) return;
+  RiderGatherer(mesh, rides, cloth).gather();
+  physics::place_riders(cloth);
+}
+
+}  // namespace furrow::bridge

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/figure/attached_parts.h"
+
+#include <CGAL/box_intersection_d.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "geometry/mesh/property_names.h"
+#include "geometry/mesh/struts.h"
+
+namespace furrow::geometry {
+namespace {
+
+constexpr double reach = 0.004;      // [m] of a part that lies on cloth
+constexpr double small_size = 0.06;  // [m] of a part that is stiff
+constexpr double small_reach = 0.1;  // [m] of such a part: by itself it would only fall
+constexpr double share_near = 0.9;   // of a part's vertices
+constexpr double large = 0.25;       // share of the other cloth's area from which it is an inner side or none
+constexpr double opposite = -0.5;    // cosine between faces that look away from each other
+constexpr double never = std::numeric_limits<double>::infinity();
+
+/// The face of a part that is nearest to a vertex.
+struct Near {
+  double squared = never;  ///< distance [m^2]
+  Face face{};
+};
+
+/// Of a vertex or a face, by its index.
+struct Box : CGAL::Box_intersection_d::Box_d<double, 3> {
+  Box(const CGAL::Bbox_3& box, std::size_t i) : Box_d(box), index(i) {}
+  std::size_t index;
+};
+
+class Finder {
+ public:
+  Finder(const Mesh& mesh, const Parts& parts)
+      : mesh_(mesh), parts_(parts), at_(places_as_made(mesh)), boxes_(parts.list.size()) {
+    for (const Vertex v : mesh.vertices())
+      if (const int part = parts_.of_vertex[v.idx()]; part >= 0)
+        boxes_[std::size_t(part)] += at_[v.idx()].bbox();
+    find_joined();
+    look();
+  }
+
+  std::vector<AttachedPart> find() {
+    std::vector<AttachedPart> found;
+    std::vector<char> rides(parts_.list.size(), 0);
+    for (std::size_t part = 1; part < rides.size(); ++part) {
+      const AttachedPart one = judge(int(part), rides);
+      if (one.ride == Ride::none) continue;
+      rides[part] = 1;
+      found.push_back(one);
+    }
+    return found;
+  }
+
+ private:
+  double size(int part) const {
+    const CGAL::Bbox_3& b = boxes_[std::size_t(part)];
+    return std::hypot(b.xmax() - b.xmin(), b.ymax() - b.ymin(), b.zmax() - b.zmin());
+  }
+  bool is_small(int part) const { return size(part) <= small_size; }
+  double reach_of(int part) const { return is_small(part) ? small_reach : reach; }
+
+  /// Parts that stay cloth whatever they lie on.
+  void find_joined() {
+    stays_.assign(parts_.list.size(), 0);
+    const auto stay = [&](std::size_t v) {
+      if (parts_.of_vertex[v] >= 0) stays_[std::size_t(parts_.of_vertex[v])] = 1;
+    };
+    for (const Strut& s : struts(mesh_))
+      if (parts_.of_vertex[s.a.idx()] != parts_.of_vertex[s.b.idx()]) stay(s.a.idx()), stay(s.b.idx());
+    if (const auto line = find_map(mesh_, attribute::line))
+      for (const Vertex v : mesh_.vertices())
+        if ((*line)[v] >= 0) stay(v.idx());
+  }
+
+  CGAL::Triangle_3<Point::R> triangle(Face f) const {
+    const Halfedge h = mesh_.halfedge(f);
+    return {at_[mesh_.source(h).idx()], at_[mesh_.target(h).idx()], at_[mesh_.target(mesh_.next(h)).idx()]};
+  }
+
+  /// Of each vertex, the nearest face of each larger part within its reach.
+  void look() {
+    std::vector<Box> vertices, faces;
+    for (const Vertex v : mesh_.vertices()) {
+      const int part = parts_.of_vertex[v.idx()];
+      if (part < 1 || stays_[std::size_t(part)]) continue;
+      const double r = reach_of(part);
+      const Point& p = at_[v.idx()];
+      vertices.emplace_back(CGAL::Bbox_3(p.x() - r, p.y() - r, p.z() - r, p.x() + r, p.y() + r, p.z() + r),
+                            v.idx());
+    }
+    if (vertices.empty()) return;
+    for (const Face f : mesh_.faces()) faces.emplace_back(triangle(f).bbox(), f.idx());
+    CGAL::box_intersection_d(vertices.begin(), vertices.end(), faces.begin(), faces.end(),
+                             [&](const Box& v, const Box& f) { note(v.index, f.index); });
+  }
+
+  void note(std::size_t v, std::size_t f) {
+    const int of = parts_.of_face[f];
+    if (of >= parts_.of_vertex[v]) return;
+    const Face face{Face::size_type(f)};
+    const CGAL::Triangle_3<Point::R> t = triangle(face);
+    if (t.is_degenerate()) return;
+    const double squared = CGAL::squared_distance(at_[v], t);
+    Near& best = near_[{v, of}];
+    if (squared < best.squared || (squared == best.squared && face < best.face)) best = {squared, face};
+  }
+
+  /// The nearest face of cloth that does not ride.
+  Near nearest(std::size_t v, const std::vector<char>& rides) const {
+    Near best;
+    for (auto at = near_.lower_bound({v, 0}); at != near_.end() && at->first.first == v; ++at)
+      if (!rides[std::size_t(at->first.second)] && at->second.squared < best.squared) best = at->second;
+    return best;
+  }
+
+  Vector normal(Face f) const {
+    const CGAL::Triangle_3<Point::R> t = triangle(f);
+    const Vector n = CGAL::cross_product(t[1] - t[0], t[2] - t[0]);
+    const double length = std::sqrt(n.squared_length());
+    return length > 0 ? n / length : n;
+  }
+
+  AttachedPart judge(int part, const std::vector<char>& rides) const {
+    AttachedPart result{part, Ride::none, never};
+    if (stays_[std::size_t(part)]) return result;
+    std::vector<double> distances;
+    double carried = 0, away = 0;
+    std::vector<char> carriers(parts_.list.size(), 0);
+    for (const Vertex v : mesh_.vertices()) {
+      if (parts_.of_vertex[v.idx()] != part) continue;
+      const Near near = nearest(v.idx(), rides);
+      distances.push_back(std::sqrt(near.squared));
+      if (near.squared == never) continue;
+      carriers[std::size_t(parts_.of_face[near.face.idx()])] = 1;
+      const Halfedge h = mesh_.halfedge(v);
+      const Face own = mesh_.face(mesh_.is_border(h) ? mesh_.opposite(h) : h);
+      away += normal(own) * normal(near.face) < opposite;
+    }
+    for (std::size_t i = 0; i < carriers.size(); ++i)
+      if (carriers[i]) carried += parts_.list[i].area;
+    const bool is_large = parts_.list[std::size_t(part)].area > large * carried;
+    std::sort(distances.begin(), distances.end());
+    const auto counted = std::size_t(std::ceil(share_near * double(distances.size())));
+    result.reach = distances[(is_large ? distances.size() : counted) - 1];
+    if (!(result.reach <= reach_of(part))) return result;
+    if (!is_large)
+      result.ride = is_small(part) ? Ride::rigid : Ride::by_place;
+    else if (away >= share_near * double(distances.size()))
+      result.ride = Ride::by_place;
+    return result;
+  }
+
+  const Mesh& mesh_;
+  const Parts& parts_;
+  std::vector<Point> at_;
+  std::vector<CGAL::Bbox_3> boxes_;  ///< by part
+  std::vector<char> stays_;
+  std::map<std::pair<std::size_t, int>, Near> near_;  ///< by vertex and part
+};
+
+}  // namespace
+
+std::vector<Point> places_as_made(const Mesh& mesh) {
+  const auto rest = find_map(mesh, attribute::rest_position);
+  std::vector<Point> places;
+  for (const Vertex v : mesh.vertices()) {
+    const RestPosition at = rest ? (*rest)[v] : RestPosition{unset_value, unset_value, unset_value};
+    places.push_back(std::isfinite(at[0]) ? Point(at[0], at[1], at[2]) : mesh.point(v));
+  }
+  return places;
+}
+
+std::vector<AttachedPart> find_attached(const Mesh& mesh, const Parts& parts) {
+  return parts.list.size() < 2 ? std::vector<AttachedPart>{} : Finder(mesh, parts).find();
+}
+
+void set_rides(Mesh& mesh, const Parts& parts, const std::vector<AttachedPart>& attached) {
+  if (auto old = find_map(mesh, attribute::rides)) mesh.remove_property_map(*old);
+  if (attached.empty()) return;
+  const auto map = ensure_map(mesh, attribute::rides);
+  for (const Face f : mesh.faces())
+    for (const AttachedPart& a : attached)
+      if (parts.of_face[f.idx()] == a.part) map[f] = int(a.ride);
+}
+
+std::vector<Ride> rides_of(const Mesh& mesh) {
+  const auto map = find_map(mesh, attribute::rides);
+  if (!map) return {};
+  std::vector<Ride> rides(mesh.num_faces(), Ride::none);
+  for (const Face f : mesh.faces()) rides[f.idx()] = Ride((*map)[f]);
+  return rides;
+}
+
+}  // namespace furrow::geometry

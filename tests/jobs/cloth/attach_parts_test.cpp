@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/cloth/attach_parts.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "geometry/figure/attached_parts.h"
+#include "geometry/mesh/sheet.h"
+#include "io/scene/scene.h"
+#include "io/scene/state_file.h"
+#include "jobs/chain/keep.h"
+#include "jobs/move/simulate.h"
+#include "jobs/rest/drape.h"
+#include "tests/jobs/job_folders.h"
+#include "tests/jobs/recorder.h"
+#include "tests/test_meshes.h"
+
+using namespace furrow;
+using geometry::Vertex;
+namespace fs = std::filesystem;
+
+namespace {
+
+Vertex vertex(std::size_t i) { return Vertex(Vertex::size_type(i)); }
+
+void add(geometry::Mesh& mesh, const geometry::Mesh& more, const geometry::Vector& moved) {
+  std::vector<Vertex> now;
+  for (const Vertex v : more.vertices()) now.push_back(mesh.add_vertex(more.point(v) + moved));
+  for (const geometry::Face f : more.faces()) {
+    const geometry::Halfedge h = more.halfedge(f);
+    mesh.add_face(now[more.source(h).idx()], now[more.target(h).idx()], now[more.target(more.next(h)).idx()]);
+  }
+}
+
+constexpr double off = 0.003;  // of button and pocket from the sheet [m]
+
+/// A sheet with a button and a pocket before it; the sheet's vertices come first.
+struct Dressed {
+  geometry::Mesh mesh = geometry::equilateral_sheet(0.3, 0.3, 0.02);
+  std::size_t sheet = mesh.number_of_vertices(), button = 0;
+
+  Dressed() {
+    add(mesh, geometry::equilateral_sheet(0.015, 0.015, 0.0075), {0.15, 0.2, off});
+    button = mesh.number_of_vertices();
+    add(mesh, geometry::equilateral_sheet(0.08, 0.08, 0.02), {0.1, 0.05, off});
+  }
+};
+
+/// The nearest that a point is to the sheet [m].
+double from_sheet(const geometry::Point& p, const geometry::Mesh& mesh, const Dressed& dressed) {
+  double nearest = 1;
+  for (const geometry::Face f : mesh.faces()) {
+    const geometry::Halfedge h = mesh.halfedge(f);
+    if (mesh.source(h).idx() >= dressed.sheet) continue;
+    const CGAL::Triangle_3<geometry::Point::R> t(mesh.point(mesh.source(h)), mesh.point(mesh.target(h)),
+                                                 mesh.point(mesh.target(mesh.next(h))));
+    nearest = std::min(nearest, CGAL::squared_distance(p, t));
+  }
+  return std::sqrt(nearest);
+}
+
+/// How far the button's middle, or a vertex of the pocket, is from where it was before the sheet [m].
+double strayed(const geometry::Mesh& mesh, const Dressed& dressed) {
+  geometry::Vector middle = CGAL::NULL_VECTOR;
+  for (std::size_t v = dressed.sheet; v < dressed.button; ++v)
+    middle = middle + (mesh.point(vertex(v)) - CGAL::ORIGIN) / double(dressed.button - dressed.sheet);
+  double most = std::abs(from_sheet(CGAL::ORIGIN + middle, mesh, dressed) - off);
+  for (std::size_t v = dressed.button; v < mesh.number_of_vertices(); ++v)
+    most = std::max(most, std::abs(from_sheet(mesh.point(vertex(v)), mesh, dressed) - off));
+  return most;
+}
+
+jobs::SceneInput hung(const Dressed& dressed) {
+  jobs::SceneInput scene;
+  scene.memory.meshes["dressed"].mesh = dressed.mesh;
+  scene.settings = io::parse_toml(
+      "[garment]\nmesh = \"dressed\"\n[material]\npreset = \"cotton\"\n[forces]\nwind = [0, 0, 5]\n"
+      "[simulation]\nseconds = 0.4\nintegrator = \"implicit\"\n[[pins]]\nbox = [-1, 0.28, -1, 1, 1, 0.001]\n",
+      "test");
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("attach_parts: button and pocket go with a sheet in the wind, also on from a state", "[release]") {
+  const Dressed dressed;
+  const fs::path folder = tests::empty_folder("attach_parts");
+  tests::Recorder recorder;
+  jobs::SimulateJob job;
+  job.scene = hung(dressed);
+  const jobs::SimulateReport whole = jobs::simulate(job, recorder);
+  CHECK(recorder.warned_of("parts_attached"));
+  const geometry::Mesh& end = whole.garment.mesh;
+  CHECK(std::abs(end.point(vertex(0)).z()) > 0.02);  // the wind has it
+  CHECK(strayed(end, dressed) < 0.001);
+  io::set_value(job.scene.settings, "simulation.stop_at", 0.2, "test");
+  io::set_value(job.scene.settings, "output.state", (folder / "state.ply").string(), "test");
+  job.outputs_below = "";
+  jobs::simulate(job, recorder);
+  const jobs::SimulateReport on = jobs::simulate(jobs::resume_from(folder / "state.ply"), recorder);
+  CHECK(strayed(on.garment.mesh, dressed) < 0.001);
+  for (const Vertex v : end.vertices())
+    CHECK(CGAL::squared_distance(end.point(v), on.garment.mesh->point(v)) < 1e-12);
+}
+
+TEST_CASE("attach_parts: what is pinned, and all of it where that is asked for, stays cloth", "[release]") {
+  const Dressed dressed;
+  tests::Recorder recorder;
+  const jobs::Context context{{}, recorder};
+  io::MeshFile file;
+  file.mesh = dressed.mesh;
+  jobs::attach_parts(file, "dressed", {{int(dressed.button)}}, context);
+  const auto rides = geometry::rides_of(file.mesh);
+  CHECK(std::count(rides.begin(), rides.end(), geometry::Ride::rigid) > 0);
+  CHECK(std::count(rides.begin(), rides.end(), geometry::Ride::by_place) == 0);
+  jobs::attach_parts(file, "dressed", {}, context);
+  CHECK(geometry::rides_of(file.mesh) == rides);  // the file notes which do
+  for (const auto& [key, value] : {std::pair("attach", false), {"attach", true}}) {
+    jobs::SimulateJob job;
+    job.scene = hung(dressed);
+    io::set_value(job.scene.settings, std::string("garment.") + key, value, "test");
+    io::set_value(job.scene.settings, "simulation.seconds", 0.01, "test");
+    const auto end = geometry::rides_of(jobs::simulate(job, recorder).garment.mesh);
+    CHECK(end.empty() == !value);
+  }
+}
+
+TEST_CASE("attach_parts: a drape takes no more iterations with button and pocket than without", "[release]") {
+  const Dressed dressed;
+  tests::Recorder recorder;
+  jobs::DrapeJob job;
+  job.scene = hung(dressed);
+  job.scene.settings.root->erase("forces");
+  job.scene.settings.root->erase("simulation");
+  job.subdivide = 1;
+  const jobs::Draped with = jobs::drape(job, recorder).garments.at(0);
+  CHECK(with.outcome() == "at rest");
+  CHECK(with.loose.empty());
+  job.scene.memory.meshes["dressed"].mesh = geometry::equilateral_sheet(0.3, 0.3, 0.02);
+  const jobs::Draped without = jobs::drape(job, recorder).garments.at(0);
+  REQUIRE(with.report.levels.size() == without.report.levels.size());
+  for (std::size_t i = 0; i < with.report.levels.size(); ++i)
+    CHECK(with.report.levels[i].settle.iterations <= 1.3 * without.report.levels[i].settle.iterations + 2);
+}
