@@ -29,15 +29,14 @@ geometry::Mesh cloth_as_made(const geometry::Mesh& mesh, const std::vector<Ride>
 
 class RiderGatherer {
  public:
-  RiderGatherer(const geometry::Mesh& mesh, const std::vector<Ride>& rides, physics::Cloth& cloth)
+  RiderGatherer(const geometry::Mesh& mesh, const std::vector<Ride>& rides)
       : mesh_(mesh),
         rides_(rides),
-        cloth_(cloth),
         places_(geometry::places_as_made(mesh)),
         made_(cloth_as_made(mesh, rides)),
         surface_(made_) {}
 
-  void gather() {
+  std::vector<physics::Rider> gather() {
     const geometry::Parts parts = geometry::find_parts(mesh_);
     for (std::size_t part = 0; part < parts.list.size(); ++part) {
       const Ride ride = rides_[parts.list[part].first.idx()];
@@ -46,10 +45,11 @@ class RiderGatherer {
         if (parts.of_vertex[v] == int(part)) vertices.push_back(v);
       if (ride == Ride::rigid) add_rigid(vertices);
       if (ride != Ride::by_place) continue;
-      const std::size_t first = cloth_.riders.size();
+      const std::size_t first = riders_.size();
       for (const std::size_t v : vertices) add(v, surface_.closest(places_[v]));
-      keep_to_one_side(std::span(cloth_.riders).subspan(first));
+      keep_to_one_side(std::span(riders_).subspan(first));
     }
+    return std::move(riders_);
   }
 
  private:
@@ -83,38 +83,52 @@ class RiderGatherer {
     const auto& [a, b, c] = hit.point.barycentrics;
     const physics::Vec3 weights(a, b, c);
     if (!((at[1] - at[0]).eval().cross((at[2] - at[0]).eval()).norm() > 0)) return;
-    cloth_.riders.push_back(physics::rider_at(to_eigen(places_[v]), int(v), triangle, at, weights));
-    give_mass(cloth_.riders.back());
-  }
-
-  void give_mass(const physics::Rider& rider) {
-    physics::Particles& p = cloth_.particles;
-    const double mass = std::exchange(p.mass[std::size_t(rider.particle)], 0);
-    p.inv_mass[std::size_t(rider.particle)] = 0;
-    const physics::Vec3 shares = rider.weights.cwiseMax(0) / rider.weights.cwiseMax(0).sum();
-    for (int i = 0; i < 3; ++i) {
-      const auto corner = std::size_t(rider.triangle[std::size_t(i)]);
-      p.mass[corner] += mass * shares[i];
-      p.inv_mass[corner] = 1 / p.mass[corner];
-    }
+    riders_.push_back(physics::rider_at(to_eigen(places_[v]), int(v), triangle, at, weights));
   }
 
   const geometry::Mesh& mesh_;
   const std::vector<Ride>& rides_;
-  physics::Cloth& cloth_;
+  std::vector<physics::Rider> riders_;
   std::vector<geometry::Point> places_;
   geometry::Mesh made_;
   geometry::SurfaceProjector surface_;
 };
 
+void give_mass(const physics::Rider& rider, physics::Particles& p) {
+  const double mass = std::exchange(p.mass[std::size_t(rider.particle)], 0);
+  p.inv_mass[std::size_t(rider.particle)] = 0;
+  const physics::Vec3 shares = rider.weights.cwiseMax(0) / rider.weights.cwiseMax(0).sum();
+  for (int i = 0; i < 3; ++i) {
+    const auto corner = std::size_t(rider.triangle[std::size_t(i)]);
+    p.mass[corner] += mass * shares[i];
+    p.inv_mass[corner] = 1 / p.mass[corner];
+  }
+}
+
 }  // namespace
 
-void gather_riders(const geometry::Mesh& mesh, physics::Cloth& cloth) {
+std::vector<physics::Rider> riders_of(const geometry::Mesh& mesh) {
   const std::vector<Ride> rides = geometry::rides_of(mesh);
-  if (std::count(rides.begin(), rides.end(), Ride::none) == std::ssize(rides)) return;
-  if (std::count(rides.begin(), rides.end(), Ride::none) == 0) return;
-  RiderGatherer(mesh, rides, cloth).gather();
+  const auto of_cloth = std::count(rides.begin(), rides.end(), Ride::none);
+  if (of_cloth == std::ssize(rides) || of_cloth == 0) return {};
+  return RiderGatherer(mesh, rides).gather();
+}
+
+void gather_riders(const geometry::Mesh& mesh, physics::Cloth& cloth) {
+  cloth.riders = riders_of(mesh);
+  for (const physics::Rider& rider : cloth.riders) give_mass(rider, cloth.particles);
   physics::place_riders(cloth);
+}
+
+void bring_riders_along(geometry::Mesh& mesh) {
+  physics::Cloth places;
+  places.riders = riders_of(mesh);
+  places.particles.x = positions_of(mesh);
+  places.particles.v.assign(places.particles.size(), physics::Vec3::Zero());
+  physics::place_riders(places);
+  for (const physics::Rider& rider : places.riders)
+    mesh.point(geometry::Vertex(geometry::Vertex::size_type(rider.particle))) =
+        to_cgal(places.particles.x[std::size_t(rider.particle)]);
 }
 
 }  // namespace furrow::bridge

@@ -1,14 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <vector>
+
 #include "geometry/mesh/mesh_fwd.h"
 #include "physics/cloth/cloth.h"
 
 namespace furrow::bridge {
 
-/// Makes the particles of parts that ride (geometry/figure/attached_parts.h) riders of the cloth's triangles
-/// that they lay nearest to as the garment was made. Their masses go to those triangles' corners. A
-/// part that goes place by place, and dips through the cloth, is put to the side that most of it lies on.
-/// Nothing changes where no part rides, or all do. Cost: O(log faces) a rider.
+/// The vertices of parts that ride (geometry/figure/attached_parts.h), each on the triangle of cloth that it
+/// lay nearest to as the garment was made, and as far off. A part that goes place by place, and dips through
+/// the cloth, is put to the side that most of it lies on. None where no part rides, or all do. Cost: O(log
+/// faces) a rider.
+std::vector<physics::Rider> riders_of(const geometry::Mesh& mesh);
+
+/// Makes their particles riders of the cloth. Their masses go to the corners of the triangles.
 void gather_riders(const geometry::Mesh& mesh, physics::Cloth& cloth);
+
+/// Puts them where the cloth lies now.
+void bring_riders_along(geometry::Mesh& mesh);
 
 }  // namespace furrow::bridge

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "geometry/figure/attached_parts.h"
 #include "geometry/mesh/crossings.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/self_intersections.h"
@@ -30,6 +31,17 @@ std::vector<char> refined(geometry::Mesh mesh, const std::vector<char>& crossed,
   return result;
 }
 
+using FacePairs = std::vector<std::array<geometry::Face, 2>>;
+
+/// Without what rides on cloth as one: a button may be sunk into it as it was made.
+FacePairs of_cloth(const geometry::Mesh& mesh, FacePairs pairs) {
+  const std::vector<geometry::Ride> rides = geometry::rides_of(mesh);
+  const auto is_rigid = [&](geometry::Face f) { return rides[f.idx()] == geometry::Ride::rigid; };
+  if (!rides.empty())
+    std::erase_if(pairs, [&](const auto& pair) { return is_rigid(pair[0]) || is_rigid(pair[1]); });
+  return pairs;
+}
+
 Json to_json(const CrossingPlace& p) {
   return {{"pairs", p.pairs},      {"new", p.pairs - p.from_start},
           {"x", p.centre.x()},     {"y", p.centre.y()},
@@ -40,7 +52,8 @@ Json to_json(const CrossingPlace& p) {
 }  // namespace
 
 CrossedStart crossed_start(const geometry::Mesh& mesh, int refinements) {
-  const geometry::Crossings found = geometry::find_crossings(mesh, geometry::find_parts(mesh));
+  const geometry::Crossings found = geometry::find_crossings(
+      mesh, geometry::find_parts(mesh), of_cloth(mesh, geometry::self_intersections(mesh)), {});
   CrossedStart start;
   start.pairs = found.pairs;
   if (!found.pairs) return start;
@@ -51,8 +64,8 @@ CrossedStart crossed_start(const geometry::Mesh& mesh, int refinements) {
 
 ClothCrossings measure_crossings(const io::MeshFile& file, const CrossedStart* start,
                                  geometry::CrossingMemory* memory) {
-  const auto pairs =
-      memory ? geometry::self_intersections(file.mesh, *memory) : geometry::self_intersections(file.mesh);
+  const FacePairs pairs = of_cloth(file.mesh, memory ? geometry::self_intersections(file.mesh, *memory)
+                                                     : geometry::self_intersections(file.mesh));
   const geometry::Parts parts = pairs.empty() ? geometry::Parts{} : geometry::find_parts(file.mesh);
   const geometry::Crossings found =
       geometry::find_crossings(file.mesh, parts, pairs, start ? start->vertices : std::vector<char>{});

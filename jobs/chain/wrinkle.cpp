@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "bridge/arrays/gather_riders.h"
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/refine/subdivide.h"
@@ -22,6 +23,7 @@
 #include "jobs/chain/hold_drawn.h"
 #include "jobs/chain/settle_first.h"
 #include "jobs/chain/wrinkle_stages.h"
+#include "jobs/cloth/attach_parts.h"
 #include "jobs/cloth/chain.h"
 #include "jobs/cloth/keep_at_rest.h"
 #include "jobs/cloth/pins.h"
@@ -312,6 +314,10 @@ WrinkleReport draw_and_settle(const WrinkleJob& job, Budget& budget) {
   report.drawn = draw(job, canvas, scene, refined, report.stages ? &*report.stages : nullptr,
                       report.quality ? &*report.quality : nullptr, context);
   stop_if_cancelled(context);
+  if (!job.state && (!scene || scene->attach) && (!settle || settle->scene.attach)) {
+    attach_parts(canvas.file, name_of(job.garment, "the garment"), canvas.pins, context);
+    bridge::bring_riders_along(canvas.file.mesh);
+  }
   if (scene) report.drawn.kept = keep_drawn(canvas, *scene, context);
   if (job.max_weights) limit_noted_weights(canvas.file, *job.max_weights);
   if (scene) warn_if_shape_only(job.output, context);

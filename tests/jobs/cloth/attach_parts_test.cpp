@@ -6,10 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/figure/attached_parts.h"
+#include "geometry/mesh/self_intersections.h"
 #include "geometry/mesh/sheet.h"
 #include "io/scene/scene.h"
 #include "io/scene/state_file.h"
-#include "jobs/chain/keep.h"
+#include "jobs/chain/wrinkle.h"
 #include "jobs/move/simulate.h"
 #include "jobs/rest/drape.h"
 #include "tests/jobs/job_folders.h"
@@ -124,6 +125,35 @@ TEST_CASE("attach_parts: what is pinned, and all of it where that is asked for, 
     const auto end = geometry::rides_of(jobs::simulate(job, recorder).garment.mesh);
     CHECK(end.empty() == !value);
   }
+}
+
+TEST_CASE(
+    "attach_parts: a ridge that is drawn under a pocket lifts it, and one on a pocket keeps it as cloth") {
+  const Dressed dressed;
+  tests::Recorder recorder;
+  io::DrawnStroke ridge;
+  ridge.stroke.height = 0.01;
+  ridge.stroke.width = 0.08;
+  ridge.stroke.points = {{0.02, 0.03, 0}, {0.28, 0.03, 0}};
+  jobs::WrinkleJob job;
+  io::MeshFile file;
+  file.mesh = dressed.mesh;
+  job.garment = file;
+  job.strokes = std::vector{ridge};
+  job.options.detail = geometry::Detail::coarse;
+  const geometry::Mesh drawn = jobs::wrinkle(job, recorder).garment.mesh;
+  double lifted = 0;
+  for (std::size_t v = dressed.button; v < dressed.mesh.number_of_vertices(); ++v)
+    lifted = std::max(lifted, drawn.point(vertex(v)).z() - off);
+  CHECK(lifted > 0.002);
+  CHECK(geometry::count_self_intersections(drawn) == 0);
+  ridge.stroke.points = {{0.12, 0.09, off}, {0.16, 0.09, off}};
+  ridge.stroke.height = 0.003;
+  ridge.stroke.width = 0.02;
+  job.strokes = std::vector{ridge};
+  const auto rides = geometry::rides_of(jobs::wrinkle(job, recorder).garment.mesh);
+  CHECK(std::count(rides.begin(), rides.end(), geometry::Ride::by_place) == 0);
+  CHECK(std::count(rides.begin(), rides.end(), geometry::Ride::rigid) > 0);
 }
 
 TEST_CASE("attach_parts: a drape takes no more iterations with button and pocket than without", "[release]") {

@@ -544,6 +544,7 @@ TEST_CASE("simulate: with contact of cloth with itself --cloth-friction holds a 
         "[simulation]\nintegrator = \"implicit\"\nself_contact = \"on\"\nseconds = 0.2\n",
         "test");
     io::set_value(job.scene.settings, "material.cloth_friction", friction, "test");
+    io::set_value(job.scene.settings, "garment.attach", false, "test");
     io::set_value(job.scene.settings, "material.drag", 0, "test");
     tests::Recorder recorder;
     const jobs::SimulateReport report = jobs::simulate(job, recorder);
