@@ -134,7 +134,7 @@ TEST_CASE(
   io::DrawnStroke ridge;
   ridge.stroke.height = 0.01;
   ridge.stroke.width = 0.08;
-  ridge.stroke.points = {{0.02, 0.03, 0}, {0.28, 0.03, 0}};
+  ridge.stroke.points = {{-0.13, 0.03, 0}, {0.13, 0.03, 0}};
   jobs::WrinkleJob job;
   io::MeshFile file;
   file.mesh = dressed.mesh;
@@ -147,7 +147,7 @@ TEST_CASE(
     lifted = std::max(lifted, drawn.point(vertex(v)).z() - off);
   CHECK(lifted > 0.002);
   CHECK(geometry::count_self_intersections(drawn) == 0);
-  ridge.stroke.points = {{0.12, 0.09, off}, {0.16, 0.09, off}};
+  ridge.stroke.points = {{0.08, 0.09, off}, {0.12, 0.09, off}};
   ridge.stroke.height = 0.003;
   ridge.stroke.width = 0.02;
   job.strokes = std::vector{ridge};
