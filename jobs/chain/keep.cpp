@@ -99,14 +99,17 @@ SceneCloth drawn_by(const io::Scene& scene, const Context& context,
 /// What is wrong with keeping a garment as it lies on its body; empty: nothing. Friction may balance cloth
 /// that has not come to rest on a few vertices, between which it would sag.
 std::string why_unsettled(const SceneCloth& garment, const io::Scene& scene) {
-  constexpr double out_of_balance = 1e-6, large_share = 0.05;  // of the garment's weight, on one vertex
+  constexpr double out_of_balance = 1e-6, far_out = 1;  // of a vertex's weight
+  constexpr double large_share = 0.05;                  // of the garment's weight, on one vertex
   physics::Cloth cloth = garment.cloth;
   physics::PrestressOptions options;
   options.gravity = scene.simulation.gravity;
   options.friction = scene.simulation.friction;
   options.gap = garment.options.contact_gap;
+  options.max_iterations = 60;  // twice those of garments that can be held
   const bridge::KeptShape shape = bridge::keep_shape(cloth, garment.world(scene), options);
-  if (shape.rest.residual > out_of_balance && !shape.rest.imbalance.empty())
+  const double residual = shape.rest.residual;
+  if (residual > far_out || (residual > out_of_balance && !shape.rest.imbalance.empty()))
     return "nothing held it in balance as it lay";
   double push = 0, weight = 0;
   for (const physics::Vec3& force : shape.rest.contact_force) push = std::max(push, force.norm());
