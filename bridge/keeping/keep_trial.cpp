@@ -26,7 +26,7 @@ constexpr double calm_dt = 1.0 / 30;   // of implicit steps, where nothing blows
 constexpr double gust_of_euler = 1.6;  // such steps take so much out of a swing that gusts blow stronger
 // Calm is what has moved for so long so slowly that no line is lost within a second [s].
 constexpr double calm_for = 0.3, lost_in = 1;
-constexpr double least_share = 0.005;         // of the mean edge: what is lower is not told from the mesh
+constexpr double least_share = 0.005;  // of the mean edge: what is lower is not told from the mesh
 constexpr double never = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -222,8 +222,8 @@ struct Setting {
     CalmWatch watch(calm_speed());
     bool calm = false;
     const auto see = [&](const physics::SimulateProgress& now) {
-      const bool looks = physics::solves_contact(options.integrator) || now.step % look_steps == 0 ||
-                         now.time >= part.until;
+      const bool looks =
+          physics::solves_contact(options.integrator) || now.step % look_steps == 0 || now.time >= part.until;
       if (looks && now.time >= run.next_look) {
         note(shares(run.cloth), worst);
         run.next_look += look;

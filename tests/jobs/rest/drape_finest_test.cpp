@@ -83,7 +83,8 @@ TEST_CASE("drape: with finest, loose parts go with the cloth, or are dropped", "
   CHECK(recorder.warned_of("parts_attached"));
   CHECK(ridden.loose.size() < 2);
   CHECK(between(ridden.file.mesh, cloth, cloth + 1) < 0.02);
-  CHECK(ridden.file.mesh->point(geometry::Vertex(geometry::Vertex::size_type(cloth))).y() > 0.1);  // on the ball
+  CHECK(ridden.file.mesh->point(geometry::Vertex(geometry::Vertex::size_type(cloth))).y() >
+        0.1);  // on the ball
 }
 
 TEST_CASE("drape: finest where it cannot be is refused, or said", "[long]") {
