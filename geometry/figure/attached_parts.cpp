@@ -189,6 +189,18 @@ void set_rides(Mesh& mesh, const Parts& parts, const std::vector<AttachedPart>& 
       if (parts.of_face[f.idx()] == a.part) map[f] = int(a.ride);
 }
 
+void free_drawn_parts(Mesh& mesh) {
+  const auto line = find_map(mesh, attribute::line);
+  const auto rides = find_map(mesh, attribute::rides);
+  if (!line || !rides) return;
+  const Parts parts = find_parts(mesh);
+  std::vector<char> drawn(parts.list.size(), 0);
+  for (const Vertex v : mesh.vertices())
+    if (parts.of_vertex[v.idx()] >= 0 && (*line)[v] >= 0) drawn[std::size_t(parts.of_vertex[v.idx()])] = 1;
+  for (const Face f : mesh.faces())
+    if (drawn[std::size_t(parts.of_face[f.idx()])]) (*rides)[f] = int(Ride::none);
+}
+
 std::vector<Ride> rides_of(const Mesh& mesh) {
   const auto map = find_map(mesh, attribute::rides);
   if (!map) return {};

@@ -30,6 +30,9 @@ std::vector<AttachedPart> find_attached(const Mesh& mesh, const Parts& parts);
 /// Notes them in attribute::rides, in place of what it said; without any it is taken off.
 void set_rides(Mesh& mesh, const Parts& parts, const std::vector<AttachedPart>& attached);
 
+/// Takes off what it says of parts with drawn lines. O(faces).
+void free_drawn_parts(Mesh& mesh);
+
 /// By face index: how its part rides; empty: none does. O(faces).
 std::vector<Ride> rides_of(const Mesh& mesh);
 

@@ -12,7 +12,7 @@ namespace furrow::jobs {
 void attach_parts(io::MeshFile& file, const std::string& name, const std::vector<std::vector<int>>& pins,
                   const Context& context) {
   geometry::Mesh& mesh = file.mesh;
-  if (geometry::find_map(mesh, geometry::attribute::rides)) return;
+  if (geometry::find_map(mesh, geometry::attribute::rides)) return geometry::free_drawn_parts(mesh);
   const geometry::Parts parts = geometry::find_parts(mesh);
   std::vector<geometry::AttachedPart> attached = geometry::find_attached(mesh, parts);
   std::vector<char> pinned(parts.list.size(), 0);
