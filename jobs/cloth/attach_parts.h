@@ -9,8 +9,8 @@
 namespace furrow::jobs {
 
 /// Lets parts of a garment that lie on other cloth ride on it (geometry/figure/attached_parts.h), unless the
-/// file notes which ones do; warns of them, with the file's name. Parts with pinned vertices stay cloth.
-/// pins: vertices, by pin.
+/// file notes which ones do: then those that were drawn on since do no more. Warns of them, with the file's
+/// name. Parts with pinned vertices stay cloth. pins: vertices, by pin.
 void attach_parts(io::MeshFile& file, const std::string& name, const std::vector<std::vector<int>>& pins,
                   const Context& context);
 

@@ -154,6 +154,14 @@ TEST_CASE(
   const auto rides = geometry::rides_of(jobs::wrinkle(job, recorder).garment.mesh);
   CHECK(std::count(rides.begin(), rides.end(), geometry::Ride::by_place) == 0);
   CHECK(std::count(rides.begin(), rides.end(), geometry::Ride::rigid) > 0);
+  const jobs::Context context{{}, recorder};
+  jobs::attach_parts(file, "dressed", {}, context);  // before it is drawn on
+  job.garment = file;
+  const geometry::Mesh on_pocket = jobs::wrinkle(job, recorder).garment.mesh;
+  CHECK(geometry::rides_of(on_pocket) == rides);
+  double raised = 0;
+  for (const geometry::Point& p : on_pocket.points()) raised = std::max(raised, p.z());
+  CHECK(raised > off + 0.002);
 }
 
 TEST_CASE("attach_parts: a drape takes no more iterations with button and pocket than without", "[release]") {
