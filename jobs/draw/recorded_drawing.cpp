@@ -2,6 +2,7 @@
 #include "jobs/draw/recorded_drawing.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "geometry/mesh/errors.h"
