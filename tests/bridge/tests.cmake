@@ -8,6 +8,7 @@ furrow_add_tests(bridge bridge LIBRARIES furrow::bridge garment_cases SOURCES
   draping/fit_piercing_test.cpp
   draping/fit_report_test.cpp
   draping/fit_zones_test.cpp
+  arrays/gather_riders_test.cpp
   arrays/gather_test.cpp
   arrays/woven_gather_test.cpp
   keeping/hold_lines_test.cpp

@@ -9,6 +9,7 @@ furrow_add_tests(physics physics LIBRARIES furrow::physics cases SOURCES
   cloth/energy_test.cpp
   cloth/hinge_forces_test.cpp
   cloth/join_cloths_test.cpp
+  cloth/riders_test.cpp
   cloth/membrane_laws_test.cpp
   cloth/membrane_test.cpp
   cloth/woven_membrane_test.cpp
