@@ -208,7 +208,8 @@ std::vector<std::string> next_command(const WrinkleArguments& a, const WrinkleRe
   if (report.rest)
     return a.preview.empty() ? std::vector<std::string>{"furrow", "render", a.out, "-o", "rests.png"}
                              : std::vector<std::string>{};
-  if (a.strokes.empty()) return {"furrow", "simulate", a.out, "--body", "BODY", "-o", "worn.ply"};
+  if (a.strokes.empty() || a.job.keep)
+    return {"furrow", "simulate", a.out, "--body", "BODY", "-o", "worn.ply"};
   return {"furrow", "wrinkle", a.in, a.strokes, "--settle", "--body", "BODY", "-o", "rests.ply"};
 }
 

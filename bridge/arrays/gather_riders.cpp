@@ -17,13 +17,22 @@ namespace {
 
 using geometry::Ride;
 
-/// What does not ride, as it was made; elements keep their numbers.
+bool has_area(const geometry::Mesh& mesh, geometry::Face f) {
+  const geometry::Halfedge h = mesh.halfedge(f);
+  const geometry::Point &a = mesh.point(mesh.source(h)), &b = mesh.point(mesh.target(h)),
+                        &c = mesh.point(mesh.target(mesh.next(h)));
+  return CGAL::cross_product(b - a, c - a).squared_length() > 0;
+}
+
+/// What does not ride and has an area, as it was made; elements keep their numbers.
 geometry::Mesh cloth_as_made(const geometry::Mesh& mesh, const std::vector<Ride>& rides) {
   geometry::Mesh made = mesh;
   const std::vector<geometry::Point> places = geometry::places_as_made(mesh);
   for (const geometry::Vertex v : made.vertices()) made.point(v) = places[v.idx()];
   for (std::size_t f = 0; f < rides.size(); ++f)
-    if (rides[f] != Ride::none) made.remove_face(geometry::Face(geometry::Face::size_type(f)));
+    if (const geometry::Face face{geometry::Face::size_type(f)};
+        rides[f] != Ride::none || !has_area(made, face))
+      made.remove_face(face);
   return made;
 }
 
@@ -82,7 +91,6 @@ class RiderGatherer {
     }
     const auto& [a, b, c] = hit.point.barycentrics;
     const physics::Vec3 weights(a, b, c);
-    if (!((at[1] - at[0]).eval().cross((at[2] - at[0]).eval()).norm() > 0)) return;
     riders_.push_back(physics::rider_at(to_eigen(places_[v]), int(v), triangle, at, weights));
   }
 

@@ -41,6 +41,7 @@ class Finder {
     for (const Vertex v : mesh.vertices())
       if (const int part = parts_.of_vertex[v.idx()]; part >= 0)
         boxes_[std::size_t(part)] += at_[v.idx()].bbox();
+    find_amid();
     find_joined();
     look();
   }
@@ -64,6 +65,24 @@ class Finder {
   }
   bool is_small(int part) const { return size(part) <= small_size; }
   double reach_of(int part) const { return is_small(part) ? small_reach : reach; }
+  /// A stiff part has one place: that of its vertex nearest to the middle of its box.
+  bool is_looked_at(Vertex v) const {
+    const int part = parts_.of_vertex[v.idx()];
+    return !is_small(part) || amid_[std::size_t(part)] == v;
+  }
+
+  void find_amid() {
+    amid_.assign(parts_.list.size(), Mesh::null_vertex());
+    std::vector<double> least(parts_.list.size(), never);
+    for (const Vertex v : mesh_.vertices()) {
+      if (parts_.of_vertex[v.idx()] < 0) continue;
+      const auto part = std::size_t(parts_.of_vertex[v.idx()]);
+      const CGAL::Bbox_3& b = boxes_[part];
+      const Point middle((b.xmin() + b.xmax()) / 2, (b.ymin() + b.ymax()) / 2, (b.zmin() + b.zmax()) / 2);
+      const double squared = CGAL::squared_distance(at_[v.idx()], middle);
+      if (squared < least[part]) least[part] = squared, amid_[part] = v;
+    }
+  }
 
   /// Parts that stay cloth whatever they lie on.
   void find_joined() {
@@ -83,12 +102,12 @@ class Finder {
     return {at_[mesh_.source(h).idx()], at_[mesh_.target(h).idx()], at_[mesh_.target(mesh_.next(h)).idx()]};
   }
 
-  /// Of each vertex, the nearest face of each larger part within its reach.
+  /// Of each vertex that is looked at, the nearest face of each larger part within its reach.
   void look() {
     std::vector<Box> vertices, faces;
     for (const Vertex v : mesh_.vertices()) {
       const int part = parts_.of_vertex[v.idx()];
-      if (part < 1 || stays_[std::size_t(part)]) continue;
+      if (part < 1 || stays_[std::size_t(part)] || !is_looked_at(v)) continue;
       const double r = reach_of(part);
       const Point& p = at_[v.idx()];
       vertices.emplace_back(CGAL::Bbox_3(p.x() - r, p.y() - r, p.z() - r, p.x() + r, p.y() + r, p.z() + r),
@@ -133,7 +152,7 @@ class Finder {
     double carried = 0, away = 0;
     std::vector<char> carriers(parts_.list.size(), 0);
     for (const Vertex v : mesh_.vertices()) {
-      if (parts_.of_vertex[v.idx()] != part) continue;
+      if (parts_.of_vertex[v.idx()] != part || !is_looked_at(v)) continue;
       const Near near = nearest(v.idx(), rides);
       distances.push_back(std::sqrt(near.squared));
       if (near.squared == never) continue;
@@ -160,6 +179,7 @@ class Finder {
   const Parts& parts_;
   std::vector<Point> at_;
   std::vector<CGAL::Bbox_3> boxes_;  ///< by part
+  std::vector<Vertex> amid_;         ///< by part
   std::vector<char> stays_;
   std::map<std::pair<std::size_t, int>, Near> near_;  ///< by vertex and part
 };

@@ -33,13 +33,18 @@ std::vector<char> refined(geometry::Mesh mesh, const std::vector<char>& crossed,
 
 using FacePairs = std::vector<std::array<geometry::Face, 2>>;
 
-/// Without what rides on cloth as one: a button may be sunk into it as it was made.
-FacePairs of_cloth(const geometry::Mesh& mesh, FacePairs pairs) {
+/// Without those of parts that ride on cloth as one and crossed it as they were given: a button may be sunk
+/// into its cloth. crossed: by vertex, then.
+void leave_out_sunken(const geometry::Mesh& mesh, const geometry::Parts& parts,
+                      const std::vector<char>& crossed, FacePairs& pairs) {
   const std::vector<geometry::Ride> rides = geometry::rides_of(mesh);
-  const auto is_rigid = [&](geometry::Face f) { return rides[f.idx()] == geometry::Ride::rigid; };
-  if (!rides.empty())
-    std::erase_if(pairs, [&](const auto& pair) { return is_rigid(pair[0]) || is_rigid(pair[1]); });
-  return pairs;
+  if (rides.empty()) return;
+  std::vector<char> sunken(parts.list.size(), 0);
+  for (std::size_t v = 0; v < std::min(crossed.size(), parts.of_vertex.size()); ++v)
+    if (const int part = parts.of_vertex[v]; crossed[v] && part >= 0)
+      sunken[std::size_t(part)] = rides[parts.list[std::size_t(part)].first.idx()] == geometry::Ride::rigid;
+  const auto is_sunken = [&](geometry::Face f) { return sunken[std::size_t(parts.of_face[f.idx()])] != 0; };
+  std::erase_if(pairs, [&](const auto& pair) { return is_sunken(pair[0]) || is_sunken(pair[1]); });
 }
 
 Json to_json(const CrossingPlace& p) {
@@ -52,8 +57,7 @@ Json to_json(const CrossingPlace& p) {
 }  // namespace
 
 CrossedStart crossed_start(const geometry::Mesh& mesh, int refinements) {
-  const geometry::Crossings found = geometry::find_crossings(
-      mesh, geometry::find_parts(mesh), of_cloth(mesh, geometry::self_intersections(mesh)), {});
+  const geometry::Crossings found = geometry::find_crossings(mesh, geometry::find_parts(mesh));
   CrossedStart start;
   start.pairs = found.pairs;
   if (!found.pairs) return start;
@@ -64,9 +68,10 @@ CrossedStart crossed_start(const geometry::Mesh& mesh, int refinements) {
 
 ClothCrossings measure_crossings(const io::MeshFile& file, const CrossedStart* start,
                                  geometry::CrossingMemory* memory) {
-  const FacePairs pairs = of_cloth(file.mesh, memory ? geometry::self_intersections(file.mesh, *memory)
-                                                     : geometry::self_intersections(file.mesh));
+  FacePairs pairs =
+      memory ? geometry::self_intersections(file.mesh, *memory) : geometry::self_intersections(file.mesh);
   const geometry::Parts parts = pairs.empty() ? geometry::Parts{} : geometry::find_parts(file.mesh);
+  if (start && !pairs.empty()) leave_out_sunken(file.mesh, parts, start->vertices, pairs);
   const geometry::Crossings found =
       geometry::find_crossings(file.mesh, parts, pairs, start ? start->vertices : std::vector<char>{});
   ClothCrossings result;

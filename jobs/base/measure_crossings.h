@@ -11,8 +11,9 @@ namespace furrow::jobs {
 CrossedStart crossed_start(const geometry::Mesh& mesh, int refinements = 0);
 
 /// Counts and places what crosses in a garment now; `start` (null: only one state is known) tells old
-/// crossings from new ones; parts that ride on cloth as one are left out; `memory` (null: none) has what
-/// changed little looked at in places. Throws as geometry::find_crossings(). Cost: some 3 us a face.
+/// crossings from new ones: parts that ride on cloth as one, and crossed it then, are left out. `memory`
+/// (null: none) has what changed little looked at in places. Throws as geometry::find_crossings(). Cost: some
+/// 3 us a face.
 ClothCrossings measure_crossings(const io::MeshFile& file, const CrossedStart* start = nullptr,
                                  geometry::CrossingMemory* memory = nullptr);
 
