@@ -31,6 +31,7 @@ constexpr double least_depth = 1e-7;  // m
 
 constexpr double contact_share = 0.5;     // of the mean stiffness of a particle
 constexpr double first_time = 0.03;       // tau [s]
+constexpr double endless = 1;             // tau that holds nothing back any more [s]
 constexpr double least_share = 1.0 / 32;  // of a step
 constexpr double least_clamp = 0.02;      // once the Hessian alone would not do
 constexpr double relax_clamp = 0.7;       // after a success
@@ -118,7 +119,7 @@ struct Rest {
 Pace next_pace(Pace pace, const Factors& factors, const Move& move, double share) {
   pace.clamp = factors.clamp;
   if (factors.tries == 1) pace.clamp = factors.clamp < least_clamp / 2 ? 0 : relax_clamp * factors.clamp;
-  if (share == 0) return {0.25 * pace.tau, std::min(1.0, 2 * factors.clamp + least_clamp)};
+  if (share == 0) return {0.25 * std::min(pace.tau, endless), std::min(1.0, 2 * factors.clamp + least_clamp)};
   if (share == 1) pace.tau *= 4;
   if (share < move.share) return {0.9 * pace.tau, std::min(1.0, 1.5 * factors.clamp + least_clamp / 2)};
   return pace;
