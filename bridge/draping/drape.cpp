@@ -101,8 +101,8 @@ physics::SettleReport settle_softly(physics::Cloth& cloth, const physics::Collid
 constexpr double far = 0.25;  // [m] from the body, where cloth that nothing holds has fallen past it
 
 /// Whether cloth that touches nothing on a coarse level falls past the body, which no finer level would mend:
-/// all of it, or all that was not laid aside. As a rough rest may lie above what the cloth comes to lie on, a
-/// copy looks for rest to the end; it takes the cloth's place if it falls.
+/// all of it, or all that was not laid aside. As a rough rest may lie above what the cloth comes to lie on,
+/// it looks for rest to the end; interrupted, it stays at the rough one.
 bool falls_past(physics::Cloth& cloth, const physics::Collider* body, const DrapeOptions& o,
                 const physics::SettleObserver& observer, physics::SettleReport& rest) {
   const std::vector<double>& inv_mass = cloth.particles.inv_mass;
@@ -118,7 +118,7 @@ bool falls_past(physics::Cloth& cloth, const physics::Collider* body, const Drap
   for (std::size_t i = 0; falls && i < inv_mass.size(); ++i)
     falls = !(inv_mass[i] > 0) || body->at(copy.particles.x[i]).value > far;
   rest.stopped = end.stopped;
-  if (falls) cloth = std::move(copy), rest = end;
+  if (!end.stopped) cloth = std::move(copy), rest = end;
   return falls;
 }
 
