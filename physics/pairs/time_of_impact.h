@@ -20,7 +20,9 @@ struct MovingPair {
 /// four otherwise, a thousand at most.
 /// \details The distance shrinks no faster than the longest move of the one's vertices less the mean, and
 /// the same of the other, so each advance by (distance - least) / (that speed) keeps them apart. Source: Li,
-/// Kaufman and Jiang 2021, Codimensional Incremental Potential Contact, section 5.
+/// Kaufman and Jiang 2021, Codimensional Incremental Potential Contact, section 5. Where that reaches
+/// farther, an advance goes as far as a plane across the shortest way keeps all their vertices apart: what
+/// slides along a gap of nanometres is not held up by it.
 double time_of_impact(const MovingPair& pair, double range);
 
 }  // namespace furrow::physics

@@ -66,3 +66,17 @@ TEST_CASE("time_of_impact: motion that stays beyond the range is not cut, whatev
   p.move = {Vec3::Zero(), Vec3::Zero(), Vec3(0, 0, 9), Vec3(0, 0, 9)};
   CHECK(time_of_impact(p, 0.05) == 1);
 }
+
+TEST_CASE("time_of_impact: what slides along a gap of nanometres is not cut before it closes") {
+  const double gap = 2e-9;
+  MovingPair p{true, {Vec3(-1, 0, gap), Vec3(1, 0, gap), Vec3(0, -1, 0), Vec3(0, 1, 0)}, {}};
+  p.move = {Vec3(0.1, 0.4, 0), Vec3(0.1, 0.5, 0), Vec3(0, 0.01, 0), Vec3(0.02, 0, 0)};
+  CHECK(time_of_impact(p, 1e-3) == 1);
+  for (const std::size_t corner : {0u, 1u}) p.move[corner].z() = -2 * gap;
+  const double share = time_of_impact(p, 1e-3);
+  CHECK(share <= 0.45);
+  CHECK(share > 0.44);
+  MovingPair on_face{false, {Vec3(0.2, 0.2, gap), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}, {}};
+  on_face.move = {Vec3(0.3, 0.1, 0), Vec3(0, 0.01, 0), Vec3(0, 0, 0), Vec3(0.01, 0, 0)};
+  CHECK(time_of_impact(on_face, 1e-3) == 1);
+}
