@@ -38,6 +38,7 @@ MeshEditor::MeshEditor(Mesh& mesh)
       texture_(find_map(mesh, attribute::texture)),
       group_(find_map(mesh, attribute::group)),
       material_(find_map(mesh, attribute::material)),
+      lining_(find_map(mesh, attribute::lining)),
       attributes_((ensure_rest_positions(mesh), mesh)) {}
 
 /// Texture coordinate of `vertex` in the face of `inside`.
@@ -182,8 +183,8 @@ void MeshEditor::note_moved(Vertex vertex) {
 bool MeshEditor::is_seam(Edge edge) const {
   const Halfedge h = mesh_.halfedge(edge), o = mesh_.opposite(h);
   const Face f = mesh_.face(h), g = mesh_.face(o);
-  if (group_ && (*group_)[f] != (*group_)[g]) return true;
-  if (material_ && (*material_)[f] != (*material_)[g]) return true;
+  for (const auto& map : {group_, material_, lining_})
+    if (map && (*map)[f] != (*map)[g]) return true;
   return texture_ && !(same((*texture_)[h], (*texture_)[mesh_.prev(o)]) &&
                        same((*texture_)[o], (*texture_)[mesh_.prev(h)]));
 }

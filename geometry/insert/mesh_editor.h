@@ -38,7 +38,7 @@ class MeshEditor {
   EdgeMap<bool>& line_edge() { return line_edge_; }
   const EdgeMap<bool>& line_edge() const { return line_edge_; }
   const FaceMap<int>& generation() const { return generation_; }
-  /// Texture coordinates, group or material differ across this inner edge (NaN equals NaN).
+  /// Texture coordinates, group, material or lining differ across this inner edge (NaN equals NaN).
   bool is_seam(Edge edge) const;
   /// Areas in the texture chart of the two faces of an inner edge that is no seam, and of the two that a flip
   /// would make, twice each, signed: (a, b, c), (b, a, d), (a, d, c), (d, b, c). None: the mesh has no
@@ -61,7 +61,7 @@ class MeshEditor {
   EdgeMap<bool> line_edge_;
   FaceMap<int> generation_;
   std::optional<HalfedgeMap<TextureCoordinate>> texture_;
-  std::optional<FaceMap<int>> group_, material_;
+  std::optional<FaceMap<int>> group_, material_, lining_;
   EditedAttributes attributes_;
   std::set<Face> changed_;
 };

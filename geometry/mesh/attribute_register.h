@@ -100,6 +100,7 @@ inline const std::tuple attribute_register{
     Attribute{attribute::texture, "", {computed, blend, "MeshEditor"}, {PlyValue::texture, {"texcoord"}}},
     Attribute{attribute::group, "", {copy, copy}, {PlyValue::index, {"group"}}},
     Attribute{attribute::material, "", {copy, copy}, {PlyValue::index, {"material"}}},
+    Attribute{attribute::lining, "", {copy, copy}, {PlyValue::index, {"lining"}}},
     Attribute{attribute::warp, "", {copy, copy}, {PlyValue::direction, {"warp_x", "warp_y", "warp_z"}}},
     Attribute{attribute::rides, "", {copy, copy}, {PlyValue::count, {"rides"}}},
     Attribute{attribute::generation,

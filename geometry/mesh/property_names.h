@@ -73,6 +73,8 @@ inline constexpr PropertyName<Face, int> generation{"f:generation", 0};
 inline constexpr PropertyName<Face, int> group{"f:group", -1};
 /// Index into the document's material names (OBJ usemtl), -1 = none.
 inline constexpr PropertyName<Face, int> material{"f:material", -1};
+/// As `material`, of the back of a face: a lining, for which files have a face of its own; -1 = none.
+inline constexpr PropertyName<Face, int> lining{"f:lining", -1};
 /// How the part of a face rides on other cloth (figure/attached_parts.h): 0 = not.
 inline constexpr PropertyName<Face, int> rides{"f:rides", 0};
 

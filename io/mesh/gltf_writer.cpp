@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -46,9 +47,10 @@ struct GltfCorner {
 
 /// What becomes one node's mesh.
 struct GltfPart {
-  int node = -1;                                 ///< -1: a node of its own
-  Eigen::Matrix4d to_node;                       ///< from the scene
-  std::map<int, std::vector<Face>> by_material;  ///< the document's; -1: none
+  int node = -1;            ///< -1: a node of its own
+  Eigen::Matrix4d to_node;  ///< from the scene
+  /// The document's material, -1: none; and whether they are backs, which are linings.
+  std::map<std::pair<int, bool>, std::vector<Face>> by_material;
 };
 
 template <class T, std::size_t N>
@@ -115,9 +117,11 @@ class GltfMeshWriter {
     document_ = {{"scene", 0}, {"nodes", json::array()}};
     document_["scenes"] = json::array({{{"nodes", json::array()}}});
     document_["accessors"] = document_["bufferViews"] = json::array();
-    const auto materials = find_map(mesh_, attribute::material);
     std::set<int> used;
-    for (const Face f : mesh_.faces()) used.insert(named(materials ? (*materials)[f] : -1));
+    for (const Face f : mesh_.faces()) {
+      used.insert(named(index_of(attribute::material, f)));
+      if (const int lining = index_of(attribute::lining, f); lining >= 0) used.insert(named(lining));
+    }
     for (const int m : used) {
       const json plain = {{"metallicFactor", 0}, {"roughnessFactor", 0.9}};
       plain_[m] = static_cast<int>(plain_.size());
@@ -131,10 +135,14 @@ class GltfMeshWriter {
     return material >= 0 && material < static_cast<int>(file_.material_names.size()) ? material : -1;
   }
 
-  /// The document's material of a face.
-  int material_of(Face f) const {
-    const auto map = find_map(mesh_, attribute::material);
-    const int m = named(map ? (*map)[f] : -1);
+  int index_of(const PropertyName<Face, int>& name, Face f) const {
+    const auto map = find_map(mesh_, name);
+    return map ? (*map)[f] : -1;
+  }
+
+  /// The document's, by that of the file.
+  int material_of(int index) const {
+    const int m = named(index);
     if (!has_source_) return plain_.at(m);
     return m < 0 ? -1 : file_.gltf->materials.at(m);
   }
@@ -162,7 +170,10 @@ class GltfMeshWriter {
                               : nullptr;
       const auto [found, is_new] = known.emplace(place ? place->node : -1, parts.size());
       if (is_new) parts.push_back(part_at(place));
-      parts[found->second].by_material[material_of(f)].push_back(f);
+      auto& faces = parts[found->second].by_material;
+      faces[{material_of(index_of(attribute::material, f)), false}].push_back(f);
+      if (const int lining = index_of(attribute::lining, f); lining >= 0)
+        faces[{material_of(lining), true}].push_back(f);
     }
     return parts;
   }
@@ -212,10 +223,10 @@ class GltfMeshWriter {
     const std::optional<Skinning> skinning = skinning_of(part);
     json mesh = json::object(), primitives = json::array();
     if (part.node >= 0) mesh = names_.at(document_["nodes"][part.node].at("mesh").get<std::size_t>());
-    for (const auto& [material, faces] : part.by_material) {
+    for (const auto& [side, faces] : part.by_material) {
       json& primitive = primitives.emplace_back(json::object());
-      if (material >= 0) primitive["material"] = material;
-      add_primitive(part, faces, skinning, primitive, accessors);
+      if (side.first >= 0) primitive["material"] = side.first;
+      add_primitive(part, faces, side.second, skinning, primitive, accessors);
     }
     mesh["primitives"] = std::move(primitives);
     if (part.node >= 0) {
@@ -230,10 +241,10 @@ class GltfMeshWriter {
     meshes.push_back(std::move(mesh));
   }
 
-  /// Triangles of one material, and the vertices that they need.
-  void add_primitive(const GltfPart& part, const std::vector<Face>& faces,
+  /// Triangles of one material or their backs, and the vertices that they need.
+  void add_primitive(const GltfPart& part, const std::vector<Face>& faces, bool backs,
                      const std::optional<Skinning>& skinning, json& primitive, GltfAccessors& accessors) {
-    const bool mirrored = part.to_node.topLeftCorner<3, 3>().determinant() < 0;
+    const bool mirrored = (part.to_node.topLeftCorner<3, 3>().determinant() < 0) != backs;
     const auto textures = find_map(mesh_, attribute::texture);
     const auto corner_of = [&](Halfedge h) {
       return GltfCorner{mesh_.target(h),
@@ -258,7 +269,7 @@ class GltfMeshWriter {
     primitive["indices"] =
         add(accessors, indices, 3 * faces.size(), gltf_unsigned_int, "SCALAR", gltf_indices);
     json& attributes = primitive["attributes"];
-    add_shape(part, corners, attributes, accessors);
+    add_shape(part, corners, backs, attributes, accessors);
     if (textures || uses_texture(primitive)) add_textures(corners, attributes, accessors);
     add_colors(corners, attributes, accessors);
     if (skinning) add_weights(*skinning, corners, attributes, accessors);
@@ -270,7 +281,7 @@ class GltfMeshWriter {
     return accessors.add(count, component, type, bytes.size(), target);
   }
 
-  void add_shape(const GltfPart& part, const std::vector<GltfCorner>& corners, json& attributes,
+  void add_shape(const GltfPart& part, const std::vector<GltfCorner>& corners, bool backs, json& attributes,
                  GltfAccessors& accessors) {
     const Eigen::Matrix3d turned = part.to_node.topLeftCorner<3, 3>().inverse().transpose();
     std::string positions, normals;
@@ -279,7 +290,7 @@ class GltfMeshWriter {
     for (const GltfCorner& corner : corners) {
       const Vec3 x = (part.to_node * points_[corner.vertex].homogeneous()).head<3>();
       const Float3 n = normals_[corner.vertex];
-      Vec3 normal = turned * Vec3(n[0], n[1], n[2]);
+      Vec3 normal = (backs ? -1 : 1) * turned * Vec3(n[0], n[1], n[2]);
       if (!(normal.norm() > 0)) normal = Vec3(0, 1, 0);
       normal.normalize();
       Float3 place, direction;

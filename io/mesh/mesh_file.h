@@ -19,6 +19,7 @@ struct RepairReport {
   std::size_t reversed_faces = 0;       ///< triangles turned to agree with their neighbours
   std::size_t duplicated_vertices = 0;  ///< appended at the end, to part non-manifold edges and vertices
   std::size_t isolated_vertices = 0;    ///< kept
+  std::size_t lining_textures = 0;      ///< backs that took the texture coordinates of their fronts
   std::size_t merged_vertices = 0;  ///< equal positions, only where the format cannot share them (STL, glTF)
   bool any() const {
     return degenerate_faces || duplicate_faces || reversed_faces || duplicated_vertices || merged_vertices;

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <map>
 #include <ostream>
 
+#include "geometry/mesh/face_point.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/struts.h"
 #include "io/base/number_text.h"
@@ -89,22 +92,34 @@ class ObjWriter {
   }
 
   void write_faces() {
-    const auto groups = find_map(mesh_, attribute::group), materials = find_map(mesh_, attribute::material);
+    const auto groups = find_map(mesh_, attribute::group), materials = find_map(mesh_, attribute::material),
+               linings = find_map(mesh_, attribute::lining);
     int group = -1, material = -1;
     for (const Face f : mesh_.faces()) {
       if (groups) write_name("g", file_.group_names, (*groups)[f], group);
       if (materials) write_name("usemtl", file_.material_names, (*materials)[f], material);
-      bool textured = !texture_numbers_.empty();
-      for (const Halfedge h : mesh_.halfedges_around_face(mesh_.halfedge(f)))
-        textured = textured && texture_numbers_[h] > 0;
-      out_ += 'f';
-      for (const Halfedge h : mesh_.halfedges_around_face(mesh_.halfedge(f))) {
-        out_ += ' ';
-        append_number(out_, numbers_[mesh_.target(h)] + 1);
-        if (textured) out_ += '/', append_number(out_, texture_numbers_[h]);
-      }
-      out_ += '\n';
+      write_face(f, false);
     }
+    for (const Face f : mesh_.faces()) {
+      if (!linings || (*linings)[f] < 0) continue;
+      if (groups) write_name("g", file_.group_names, (*groups)[f], group);
+      write_name("usemtl", file_.material_names, (*linings)[f], material);
+      write_face(f, true);
+    }
+  }
+
+  void write_face(Face f, bool turned) {
+    std::array<Halfedge, 3> corners = halfedges_of(mesh_, f);
+    if (turned) std::reverse(corners.begin(), corners.end());
+    const bool textured = !texture_numbers_.empty() &&
+                          std::ranges::all_of(corners, [&](Halfedge h) { return texture_numbers_[h] > 0; });
+    out_ += 'f';
+    for (const Halfedge h : corners) {
+      out_ += ' ';
+      append_number(out_, numbers_[mesh_.target(h)] + 1);
+      if (textured) out_ += '/', append_number(out_, texture_numbers_[h]);
+    }
+    out_ += '\n';
   }
 
   void write_line(const std::vector<std::size_t>& numbers, bool closed) {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -62,6 +64,50 @@ void drop_degenerate(Triangles& triangles, RepairReport& repairs) {
   repairs.degenerate_faces += std::erase_if(triangles, [](const SoupTriangle& t) {
     return t.points[0] == t.points[1] || t.points[1] == t.points[2] || t.points[2] == t.points[0];
   });
+}
+
+/// The points round a face, from the least on, as it is wound or the other way.
+std::vector<std::size_t> ring(const PolygonSoup& soup, std::size_t f, bool turned) {
+  std::vector<std::size_t> points(soup.corners.begin() + std::ptrdiff_t(soup.first_corner[f]),
+                                  soup.corners.begin() + std::ptrdiff_t(soup.first_corner[f + 1]));
+  if (turned) std::reverse(points.begin(), points.end());
+  std::rotate(points.begin(), std::min_element(points.begin(), points.end()), points.end());
+  return points;
+}
+
+/// Whether a face has the texture coordinates of another one with the same points.
+bool has_textures_of(const PolygonSoup& soup, std::size_t f, std::size_t other) {
+  if (soup.textures.empty()) return true;
+  for (std::size_t c = soup.first_corner[f]; c < soup.first_corner[f + 1]; ++c) {
+    const auto first = soup.corners.begin() + std::ptrdiff_t(soup.first_corner[other]);
+    const auto same = std::find(first, soup.corners.end(), soup.corners[c]) - soup.corners.begin();
+    if (soup.textures[c] != soup.textures[std::size_t(same)]) return false;
+  }
+  return true;
+}
+
+/// Takes off linings: faces that are the back of an earlier one in another material. Returns that material by
+/// face, -1 where there is none; empty: nowhere.
+std::vector<int> take_linings(const PolygonSoup& soup, Triangles& triangles, RepairReport& repairs) {
+  std::vector<int> linings;
+  const std::vector<int>& material = soup.materials;
+  if (std::ranges::adjacent_find(material, std::ranges::not_equal_to()) == material.end()) return linings;
+  std::vector<char> taken(soup.faces(), 0);
+  std::map<std::vector<std::size_t>, std::size_t> fronts;
+  for (std::size_t f = 0; f < soup.faces(); ++f) {
+    if (soup.first_corner[f] == soup.first_corner[f + 1]) continue;
+    const auto front = fronts.find(ring(soup, f, true));
+    if (front == fronts.end()) {
+      fronts.emplace(ring(soup, f, false), f);
+    } else if (material[f] != material[front->second]) {
+      linings.resize(soup.faces(), -1);
+      linings[front->second] = material[f];
+      repairs.lining_textures += !has_textures_of(soup, f, front->second);
+      taken[f] = 1;
+    }
+  }
+  std::erase_if(triangles, [&](const SoupTriangle& t) { return taken[t.face] != 0; });
+  return linings;
 }
 
 void drop_duplicates(Triangles& triangles, RepairReport& repairs) {
@@ -154,21 +200,24 @@ void mark_diagonals(const PolygonSoup& soup, const Triangles& triangles, Mesh& m
   }
 }
 
-void fill_maps(const PolygonSoup& soup, const Triangles& triangles, SoupMesh& out) {
+void fill_face_map(Mesh& mesh, const Triangles& triangles, const PropertyName<Face, int>& name,
+                   const std::vector<int>& values) {
+  if (values.empty()) return;
+  auto map = ensure_map(mesh, name);
+  for (const Face f : mesh.faces()) map[f] = values[triangles[f].face];
+}
+
+void fill_maps(const PolygonSoup& soup, const Triangles& triangles, const std::vector<int>& linings,
+               SoupMesh& out) {
   fill_vertex_map(out, attribute::color, soup.colors);
   for (const SoupAttribute& attribute : soup.attributes) {
     auto values = ensure_vertex_attribute(out.mesh, attribute.name);
     for (const Vertex v : out.mesh.vertices()) values[v] = attribute.values[out.origin[v]];
   }
   Mesh& mesh = out.mesh;
-  if (!soup.groups.empty()) {
-    auto groups = ensure_map(mesh, attribute::group);
-    for (const Face f : mesh.faces()) groups[f] = soup.groups[triangles[f].face];
-  }
-  if (!soup.materials.empty()) {
-    auto materials = ensure_map(mesh, attribute::material);
-    for (const Face f : mesh.faces()) materials[f] = soup.materials[triangles[f].face];
-  }
+  fill_face_map(mesh, triangles, attribute::group, soup.groups);
+  fill_face_map(mesh, triangles, attribute::material, soup.materials);
+  fill_face_map(mesh, triangles, attribute::lining, linings);
   fill_corners(soup, triangles, mesh);
   mark_diagonals(soup, triangles, mesh);
 }
@@ -211,6 +260,7 @@ SoupMesh soup_to_mesh(const PolygonSoup& soup, const std::string& name, bool cha
   SoupMesh out;
   Triangles triangles = cut_faces(soup, name, out.repairs);
   drop_degenerate(triangles, out.repairs);
+  const std::vector<int> linings = take_linings(soup, triangles, out.repairs);
   drop_duplicates(triangles, out.repairs);
   const bool chain = chains && soup.has_lines && soup.faces() == 0;
   if (triangles.empty() && !chain) refuse_without_faces(soup, name);
@@ -227,7 +277,7 @@ SoupMesh soup_to_mesh(const PolygonSoup& soup, const std::string& name, bool cha
                          ": the faces cannot be parted into a manifold; repair the mesh in a modeller");
   }
   for (const SoupTriangle& t : triangles) out.face_origin.push_back(t.face);
-  fill_maps(soup, triangles, out);
+  fill_maps(soup, triangles, linings, out);
   if (!chain)
     for (const Vertex v : out.mesh.vertices()) out.repairs.isolated_vertices += out.mesh.is_isolated(v);
   return out;

@@ -17,7 +17,8 @@ struct SoupMesh {
 
 /// Makes an oriented manifold of triangles from a soup: vertex i is point i, triangles follow the faces. Maps
 /// are set where the soup has them: colours, vertex attributes, texture, rest lengths of triangles, group,
-/// material, and e:diagonal where a face of four corners was cut; copies of vertices carry them along. Throws
+/// material, and e:diagonal where a face of four corners was cut; copies of vertices carry them along. A face
+/// that is the back of an earlier one in another material is its lining (attribute::lining). Throws
 /// geometry::ContentError ("name:line: …" or "name: face i: …") if a corner's index is out of range, and if
 /// no face is left. Cost: O(F log F).
 /// \details Faces are cut by triangulate_polygon(). Triangles with a repeated corner, and those with the

@@ -86,7 +86,17 @@ std::vector<SplitCorners> parts_of(const SplitCorners& corners, const std::array
 void take_faces(const Mesh& mesh, const std::vector<std::size_t>& point, std::span<const SeamSplit> splits,
                 PolygonSoup& soup) {
   const auto texture = find_map(mesh, attribute::texture);
-  const auto group = find_map(mesh, attribute::group), material = find_map(mesh, attribute::material);
+  const auto group = find_map(mesh, attribute::group), material = find_map(mesh, attribute::material),
+             lining = find_map(mesh, attribute::lining);
+  const auto take = [&](Face f, const SplitCorners& corners, const std::optional<FaceMap<int>>& own) {
+    for (const SplitCorner& corner : corners) {
+      soup.corners.push_back(corner.point);
+      if (texture) soup.textures.push_back(corner.texture);
+    }
+    soup.close_face();
+    if (group) soup.groups.push_back((*group)[f]);
+    if (own) soup.materials.push_back((*own)[f]);
+  };
   for (Face f : mesh.faces()) {
     auto sides = halfedges_of(mesh, f);
     SplitCorners corners;
@@ -94,13 +104,8 @@ void take_faces(const Mesh& mesh, const std::vector<std::size_t>& point, std::sp
       corners[k] = {point[mesh.target(sides[k]).idx()], texture ? (*texture)[sides[k]] : TextureCoordinate{}};
     for (Halfedge& h : sides) h = mesh.opposite(h);
     for (const SplitCorners& part : parts_of(corners, sides, splits, point)) {
-      for (const SplitCorner& corner : part) {
-        soup.corners.push_back(corner.point);
-        if (texture) soup.textures.push_back(corner.texture);
-      }
-      soup.close_face();
-      if (group) soup.groups.push_back((*group)[f]);
-      if (material) soup.materials.push_back((*material)[f]);
+      take(f, part, material);
+      if (lining && (*lining)[f] >= 0) take(f, {part[0], part[2], part[1]}, lining);
     }
   }
 }

@@ -69,6 +69,8 @@ void tell_repairs(const std::string& path, const io::MeshFile& file, const Conte
   };
   tell(r.degenerate_faces, "degenerate_faces", "degenerate faces dropped");
   tell(r.duplicate_faces, "duplicate_faces", "duplicate faces dropped");
+  tell(r.lining_textures, "lining_textures",
+       "faces of its lining take the texture coordinates of their fronts");
   tell(r.reversed_faces, "reversed_faces", "faces turned to agree with their neighbours");
   tell(r.duplicated_vertices, "duplicated_vertices",
        "vertices duplicated where the surface was not manifold");

@@ -17,10 +17,10 @@ namespace {
 Json to_json(const geometry::Point& p) { return Json::array({p.x(), p.y(), p.z()}); }
 
 Json to_json(const io::RepairReport& r) {
-  return {{"triangulated_faces", r.triangulated_faces},   {"degenerate_faces", r.degenerate_faces},
-          {"duplicate_faces", r.duplicate_faces},         {"reversed_faces", r.reversed_faces},
-          {"duplicated_vertices", r.duplicated_vertices}, {"isolated_vertices", r.isolated_vertices},
-          {"merged_vertices", r.merged_vertices}};
+  return {{"triangulated_faces", r.triangulated_faces}, {"degenerate_faces", r.degenerate_faces},
+          {"duplicate_faces", r.duplicate_faces},       {"reversed_faces", r.reversed_faces},
+          {"lining_textures", r.lining_textures},       {"duplicated_vertices", r.duplicated_vertices},
+          {"isolated_vertices", r.isolated_vertices},   {"merged_vertices", r.merged_vertices}};
 }
 
 /// null: too many faces lie at one place to count.

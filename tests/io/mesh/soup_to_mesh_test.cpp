@@ -57,6 +57,54 @@ TEST_CASE("soup_to_mesh: an oriented manifold is left as it is") {
   CHECK(corners_of(out.mesh) == List{0, 1, 2, 0, 2, 3});
 }
 
+TEST_CASE("soup_to_mesh: backs in another material are the lining of their fronts") {
+  io::PolygonSoup soup = soup_of(6, {{0, 1, 2}, {0, 2, 3}, {1, 4, 5, 2}, {2, 1, 0}, {4, 1, 2, 5}});
+  soup.materials = {0, 0, 0, 1, 2};
+  soup.textures.assign(soup.corners.size(), {0.5, 0.5});
+  soup.textures.back() = {0, 1};
+  const auto out = io::soup_to_mesh(soup, "t");
+  CHECK(out.repairs.duplicate_faces == 0);
+  CHECK(out.repairs.lining_textures == 1);
+  CHECK(out.origin.size() == 6);
+  CHECK(is_manifold(out.mesh));
+  const auto lining = *find_map(out.mesh, attribute::lining);
+  std::vector<int> found;
+  for (const Face f : out.mesh.faces()) found.push_back(lining[f]);
+  CHECK(found == std::vector<int>{1, -1, 2, 2});
+}
+
+TEST_CASE("soup_to_mesh: a lining is written as OBJ and GLB, and read again") {
+  const std::string text =
+      "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nusemtl front\nf 1/1 2/2 3/3\nf 1/1 3/3 "
+      "4/2\n"
+      "usemtl back\nf 3/3 2/2 1/1\n";
+  const io::MeshFile file = read_from(text, io::MeshFormat::obj);
+  REQUIRE(file.mesh->number_of_faces() == 2);
+  const TemporaryFolder folder;
+  for (const char* name : {"a.obj", "a.glb"}) {
+    io::write_mesh(folder / name, file);
+    const io::MeshFile back = io::read_mesh(folder / name);
+    REQUIRE(back.mesh->number_of_faces() == 2);
+    CHECK(back.mesh->number_of_vertices() == 4);
+    CHECK(back.repairs.lining_textures == 0);
+    const auto lining = find_map(back.mesh, attribute::lining);
+    REQUIRE(lining);
+    std::vector<std::string> found;
+    for (const Face f : back.mesh->faces())
+      if ((*lining)[f] >= 0) found.push_back(back.material_names.at(std::size_t((*lining)[f])));
+    CHECK(found == std::vector<std::string>{"back"});
+  }
+}
+
+TEST_CASE("soup_to_mesh: backs in the same material, and copies that face the same way, are dropped") {
+  io::PolygonSoup soup = soup_of(4, {{0, 1, 2}, {0, 2, 3}, {2, 1, 0}, {0, 2, 3}});
+  soup.materials = {0, 0, 0, 1};
+  const auto out = io::soup_to_mesh(soup, "t");
+  CHECK(out.repairs.duplicate_faces == 2);
+  CHECK(out.mesh.number_of_faces() == 2);
+  CHECK(out.origin.size() == 4);
+}
+
 TEST_CASE("soup_to_mesh: degenerate and duplicate triangles are dropped and counted") {
   const auto out =
       io::soup_to_mesh(soup_of(4, {{0, 1, 1}, {0, 1, 2}, {0, 1}, {2, 1, 0}, {1, 2, 0}, {0, 2, 3, 0}}), "t");
