@@ -49,8 +49,10 @@ class Finder {
   std::vector<AttachedPart> find() {
     std::vector<AttachedPart> found;
     std::vector<char> rides(parts_.list.size(), 0);
+    const std::vector<char> nothing = rides;
     for (std::size_t part = 1; part < rides.size(); ++part) {
-      const AttachedPart one = judge(int(part), rides);
+      AttachedPart one = judge(int(part), rides, true);
+      if (one.ride == Ride::none) one = judge(int(part), nothing, false);
       if (one.ride == Ride::none) continue;
       rides[part] = 1;
       found.push_back(one);
@@ -130,11 +132,11 @@ class Finder {
     if (squared < best.squared || (squared == best.squared && face < best.face)) best = {squared, face};
   }
 
-  /// The nearest face of cloth that does not ride.
-  Near nearest(std::size_t v, const std::vector<char>& rides) const {
+  /// The nearest face, without those of some parts.
+  Near nearest(std::size_t v, const std::vector<char>& without) const {
     Near best;
     for (auto at = near_.lower_bound({v, 0}); at != near_.end() && at->first.first == v; ++at)
-      if (!rides[std::size_t(at->first.second)] && at->second.squared < best.squared) best = at->second;
+      if (!without[std::size_t(at->first.second)] && at->second.squared < best.squared) best = at->second;
     return best;
   }
 
@@ -145,7 +147,8 @@ class Finder {
     return length > 0 ? n / length : n;
   }
 
-  AttachedPart judge(int part, const std::vector<char>& rides) const {
+  /// As it lies on other parts, without some; `sides`: it may be an inner side.
+  AttachedPart judge(int part, const std::vector<char>& without, bool sides) const {
     AttachedPart result{part, Ride::none, never};
     if (stays_[std::size_t(part)]) return result;
     std::vector<double> distances;
@@ -153,7 +156,7 @@ class Finder {
     std::vector<char> carriers(parts_.list.size(), 0);
     for (const Vertex v : mesh_.vertices()) {
       if (parts_.of_vertex[v.idx()] != part || !is_looked_at(v)) continue;
-      const Near near = nearest(v.idx(), rides);
+      const Near near = nearest(v.idx(), without);
       distances.push_back(std::sqrt(near.squared));
       if (near.squared == never) continue;
       carriers[std::size_t(parts_.of_face[near.face.idx()])] = 1;
@@ -170,7 +173,7 @@ class Finder {
     if (!(result.reach <= reach_of(part))) return result;
     if (!is_large)
       result.ride = is_small(part) ? Ride::rigid : Ride::by_place;
-    else if (away >= share_near * double(distances.size()))
+    else if (sides && away >= share_near * double(distances.size()))
       result.ride = Ride::by_place;
     return result;
   }

@@ -21,10 +21,11 @@ struct AttachedPart {
 };
 
 /// Finds the parts that lie on larger ones, by attribute::rest_position where that is known. Nine tenths of
-/// the vertices are within 4 mm of it; of a part of 60 mm and less, which is rigid, the one that lies amid it
-/// is within 100 mm. A part with more than a quarter of that cloth's area is one only as its inner side: all
-/// of it within 4 mm, and facing the other way. Parts with drawn lines, and those that a strut joins to
-/// others, are none. Ascending. Cost: O(faces log faces); O(faces) with one part. Throws as find_parts().
+/// the vertices are within 4 mm of it, or of a part that lies on it: a loop over a belt; of a part of 60 mm
+/// and less, which is rigid, the one that lies amid it is within 100 mm. A part with more than a quarter of
+/// that cloth's area is one only as its inner side: all of it within 4 mm, and facing the other way. Parts
+/// with drawn lines, and those that a strut joins to others, are none. Ascending. Cost: O(faces log faces);
+/// O(faces) with one part. Throws as find_parts().
 std::vector<AttachedPart> find_attached(const Mesh& mesh, const Parts& parts);
 
 /// Notes them in attribute::rides, in place of what it said; without any it is taken off.

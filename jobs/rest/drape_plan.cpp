@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bridge/arrays/convert.h"
+#include "bridge/arrays/gather_riders.h"
 #include "bridge/draping/refine_where.h"
+#include "geometry/figure/attached_parts.h"
 #include "geometry/fold/fold_base.h"
 #include "geometry/mesh/border_loops.h"
 #include "geometry/mesh/edge_metric.h"
@@ -63,6 +66,35 @@ CrossedStart crossed_before(const DrapePlan& plan, const Draped& draped) {
 
 double gap_with(double wanted, double sag, double tolerance) { return std::max(wanted, sag + tolerance); }
 
+/// By how much a part that goes with its cloth place by place, and lies between it and the body, is nearer to
+/// that [m]; >= 0.
+double inner_depth(const geometry::Mesh& garment, const physics::Collider& body) {
+  struct Depth {
+    double sum = 0, most = 0;  // of its vertices [m]
+  };
+  const std::vector<physics::Rider> riders = bridge::riders_of(garment);
+  if (riders.empty()) return 0;
+  const geometry::Parts parts = geometry::find_parts(garment);
+  const std::vector<geometry::Ride> rides = geometry::rides_of(garment);
+  const auto at = [&](int v) {
+    return bridge::to_eigen(garment.point(geometry::Vertex(geometry::Vertex::size_type(v))));
+  };
+  std::vector<Depth> depths(parts.list.size());
+  for (const physics::Rider& r : riders) {
+    physics::Vec3 under = physics::Vec3::Zero();
+    for (std::size_t i = 0; i < 3; ++i) under += r.weights[Eigen::Index(i)] * at(r.triangle[i]);
+    const double nearer = body.at(under).value - body.at(at(r.particle)).value;
+    Depth& depth = depths[std::size_t(parts.of_vertex[std::size_t(r.particle)])];
+    depth.sum += nearer, depth.most = std::max(depth.most, nearer);
+  }
+  double most = 0;
+  for (const geometry::Face f : garment.faces()) {
+    const Depth& depth = depths[std::size_t(parts.of_face[f.idx()])];
+    if (rides[f.idx()] == geometry::Ride::by_place && depth.sum > 0) most = std::max(most, depth.most);
+  }
+  return most;
+}
+
 /// What lowers a gap that the edges' sag and the field's tolerance raised.
 std::string remedy_of_gap(const geometry::Mesh& garment, double sag, int levels, double wanted,
                           double tolerance) {
@@ -84,7 +116,8 @@ double gap_of(const io::Scene& scene, const BodyCollider* body, const geometry::
   const double wanted = scene.simulation.contact_gap;
   if (!body) return wanted;
   const double tolerance = body->field.report().tolerance;
-  const double sag = refined_sag(garment, scene.subdivide), gap = gap_with(wanted, sag, tolerance);
+  const double sag = refined_sag(garment, scene.subdivide);
+  const double gap = gap_with(wanted, sag, tolerance) + inner_depth(garment, body->exact);
   if (gap > 1.5 * wanted)
     context.warn("gap_raised",
                  scene.garment.stem().string() + ": keeps " + geometry::length_text(gap) +

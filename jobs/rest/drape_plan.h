@@ -42,7 +42,8 @@ void hold_apart(bridge::DrapeOptions& options, const DrapeSettings& settings);
 /// gap: kept from the body [m].
 bridge::DrapeOptions drape_options_of(const io::Scene& scene, const DrapeSettings& settings, double gap);
 
-/// What is wanted, or what the sag and the field's tolerance need [m]; warns where that is much more.
+/// What is wanted, or what the sag and the field's tolerance need, from the inner side of cloth that has one
+/// [m]; warns where that is much more.
 double gap_of(const io::Scene& scene, const BodyCollider* body, const geometry::Mesh& garment,
               const Context& context);
 

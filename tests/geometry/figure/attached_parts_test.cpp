@@ -83,6 +83,10 @@ TEST_CASE("find_attached: what is sewn on, or drawn on, stays cloth, and no part
   REQUIRE(found.size() == 2);
   CHECK(found[1].ride == Ride::rigid);
   CHECK(found[1].reach == Approx(0.005));  // of the sheet, not of the pocket
+  Mesh belt = sheet_with(0.15, 0.02, 0.003);
+  add_sheet(belt, 0.06, 0.06, 0.02, {0.08, 0.08, 0.006});  // a loop, which only the belt is within reach of
+  REQUIRE(attached(belt).size() == 2);
+  CHECK(attached(belt)[1].ride == Ride::by_place);
 }
 
 TEST_CASE(
