@@ -112,21 +112,42 @@ void ClothContact::note_near(std::span<const Vec3> x, bool at_start, PairList& l
   }
 }
 
+/// Of each particle, whether it lies at a crossing or next to one.
+std::vector<char> ClothContact::around(const std::vector<EdgeFaceCrossing>& crossings) const {
+  std::vector<char> lies(mesh_.radius.size(), 0);
+  for (const EdgeFaceCrossing& c : crossings) {
+    for (const int v : mesh_.edges[std::size_t(c.edge)]) lies[std::size_t(v)] = 1;
+    for (const int v : mesh_.triangles[std::size_t(c.triangle)]) lies[std::size_t(v)] = 1;
+  }
+  return with_neighbours(std::move(lies));
+}
+
+/// Pairs that were drawn nearer than their range. Where cloth was drawn through cloth, and two rings around
+/// that, the distance does not tell how near it is meant to lie.
+void ClothContact::note_drawn(std::span<const Vec3> drawn, PairList& list, ThreadPool* pool) {
+  const auto known = std::ptrdiff_t(special_.size());
+  note_near(drawn, false, list, pool);
+  if (std::ssize(special_) == known) return;
+  const std::vector<EdgeFaceCrossing> crossings = edge_face_crossings(mesh_, drawn);
+  if (crossings.empty()) return;
+  const std::vector<char> crossed = with_neighbours(around(crossings));
+  const auto lies_there = [&](const SpecialPair& p) {
+    return std::ranges::all_of(vertices_of(mesh_, p.key),
+                               [&](int v) { return crossed[std::size_t(v)] != 0; });
+  };
+  special_.erase(std::remove_if(special_.begin() + known, special_.end(), lies_there), special_.end());
+}
+
 void ClothContact::find_special(std::span<const Vec3> x, std::span<const Vec3> drawn, ThreadPool* pool) {
   const std::vector<EdgeFaceCrossing> crossings = edge_face_crossings(mesh_, x);
   crossed_at_start_ = int(crossings.size());
   std::vector<PairKey> crossed;
   for (const EdgeFaceCrossing& c : crossings) add_pairs_of(c, mesh_, crossed);
   for (const PairKey& key : crossed) special_.push_back({key, 0, range_of(mesh_, key)});
-  loose_.assign(x.size(), 0);
-  for (const EdgeFaceCrossing& c : crossings) {
-    for (const int v : mesh_.edges[std::size_t(c.edge)]) loose_[std::size_t(v)] = 1;
-    for (const int v : mesh_.triangles[std::size_t(c.triangle)]) loose_[std::size_t(v)] = 1;
-  }
-  loose_ = with_neighbours(std::move(loose_));
+  loose_ = around(crossings);
   PairList list(mesh_);  // its margin is none, so it is made anew for each
   note_near(x, true, list, pool);
-  if (!drawn.empty()) note_near(drawn, false, list, pool);
+  if (!drawn.empty()) note_drawn(drawn, list, pool);
   const auto by_key = [](const SpecialPair& a, const SpecialPair& b) { return a.key < b.key; };
   std::stable_sort(special_.begin(), special_.end(), by_key);
   std::size_t kept = 0;

@@ -26,7 +26,8 @@ struct ClothContactOptions {
 /// PairFriction. A cloth that does not cross itself never will if each position it takes is reached by a
 /// straight way within what safe_share() allows. Nothing changes where nothing is near, bit by bit. \details
 /// Pairs that start, or were drawn, nearer than their range have a range of 0.9 of that distance: nothing
-/// that was drawn is pushed. Those that were not drawn so grow by a fifth with each call of widen(). Pairs of
+/// that was drawn is pushed, but where cloth was drawn through cloth, and two rings of vertices around that.
+/// Those that were not drawn so grow by a fifth with each call of widen(). Pairs of
 /// an edge and a face that cross at the start, and those nearer than 1e-7 m, do not count until widen() finds
 /// them apart; within a ring around them, neither do pairs that cross in their place, so that crossings can
 /// leave as they came. Results depend neither on the number of threads nor on the list's margin.
@@ -138,6 +139,8 @@ class ClothContact : public ContactTerm {
   };
   class Ranges;
   static bool active_before(const ActivePair& a, const ActivePair& b);
+  std::vector<char> around(const std::vector<EdgeFaceCrossing>& crossings) const;
+  void note_drawn(std::span<const Vec3> drawn, PairList& list, ThreadPool* pool);
   void find_special(std::span<const Vec3> x, std::span<const Vec3> drawn, ThreadPool* pool);
   void note_near(std::span<const Vec3> x, bool at_start, PairList& list, ThreadPool* pool);
   const SpecialPair* special_of(const PairKey& key) const;

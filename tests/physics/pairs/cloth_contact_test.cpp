@@ -165,6 +165,23 @@ TEST_CASE("cloth_contact: what starts or was drawn nearer than its range is not 
   CHECK(apart.energy() == contact.energy());
 }
 
+TEST_CASE("cloth_contact: what was drawn near is pushed where it was drawn through cloth, and there alone") {
+  const Cloth cloth = two_sheets(0.022, 7);
+  const auto& x = cloth.particles.x;
+  std::vector<Vec3> drawn = x;
+  drawn[49].z() = -0.05;  // a corner of the upper sheet, through the lower one
+  ClothContact none(cloth, thick, x, {}), crossed(cloth, thick, x, drawn);
+  REQUIRE_FALSE(edge_face_crossings(crossed.mesh(), drawn).empty());
+  int rounds = 0;
+  while (crossed.widen(x)) ++rounds;
+  CHECK(rounds > 0);
+  while (none.widen(x)) continue;
+  crossed.look(x, nullptr);
+  none.look(x, nullptr);
+  CHECK(crossed.touching() > 0);
+  CHECK(crossed.touching() < none.touching());
+}
+
 TEST_CASE("cloth_contact: what crosses at the start is exempt until it is apart, its neighbours are not") {
   Cloth cloth = two_sheets(0.05, 9);
   const std::vector<Vec3> apart = cloth.particles.x;
