@@ -86,8 +86,8 @@ bool has_textures_of(const PolygonSoup& soup, std::size_t f, std::size_t other) 
   return true;
 }
 
-/// Takes off linings: faces that are the back of an earlier one in another material. Returns that material by
-/// face, -1 where there is none; empty: nowhere.
+/// Takes off linings: faces that are the first back of an earlier one in another material. Returns that
+/// material by face, -1 where there is none; empty: nowhere.
 std::vector<int> take_linings(const PolygonSoup& soup, Triangles& triangles, RepairReport& repairs) {
   std::vector<int> linings;
   const std::vector<int>& material = soup.materials;
@@ -99,8 +99,9 @@ std::vector<int> take_linings(const PolygonSoup& soup, Triangles& triangles, Rep
     const auto front = fronts.find(ring(soup, f, true));
     if (front == fronts.end()) {
       fronts.emplace(ring(soup, f, false), f);
-    } else if (material[f] != material[front->second]) {
+    } else if (material[f] >= 0 && material[f] != material[front->second]) {
       linings.resize(soup.faces(), -1);
+      if (linings[front->second] >= 0) continue;  // it has one: this one is a duplicate
       linings[front->second] = material[f];
       repairs.lining_textures += !has_textures_of(soup, f, front->second);
       taken[f] = 1;

@@ -95,7 +95,7 @@ void take_faces(const Mesh& mesh, const std::vector<std::size_t>& point, std::sp
     }
     soup.close_face();
     if (group) soup.groups.push_back((*group)[f]);
-    if (own) soup.materials.push_back((*own)[f]);
+    if (material || lining) soup.materials.push_back(own ? (*own)[f] : -1);
   };
   for (Face f : mesh.faces()) {
     auto sides = halfedges_of(mesh, f);

@@ -95,9 +95,9 @@ double inner_depth(const geometry::Mesh& garment, const physics::Collider& body)
   return most;
 }
 
-/// What lowers a gap that the edges' sag and the field's tolerance raised.
+/// What lowers a gap that the edges' sag and the field's tolerance raised, and an inner side by `depth`.
 std::string remedy_of_gap(const geometry::Mesh& garment, double sag, int levels, double wanted,
-                          double tolerance) {
+                          double tolerance, double depth) {
   if (sag <= tolerance)
     return fmt::format("`body.tolerance={:.2g}` asks for a finer field of the body", tolerance / 2);
   const double vertices = double(garment.number_of_vertices()) * std::pow(4, levels + 1);
@@ -106,7 +106,7 @@ std::string remedy_of_gap(const geometry::Mesh& garment, double sag, int levels,
          (drawn ? "refine it before its lines are drawn (`furrow subdivide`), or " : "") +
          "with `subdivide=" + std::to_string(levels + 1) + "` (some " +
          std::to_string(std::llround(vertices)) + " vertices) it is " +
-         geometry::length_text(gap_with(wanted, sag / 4, tolerance));
+         geometry::length_text(gap_with(wanted, sag / 4, tolerance) + depth);
 }
 
 }  // namespace
@@ -116,15 +116,21 @@ double gap_of(const io::Scene& scene, const BodyCollider* body, const geometry::
   const double wanted = scene.simulation.contact_gap;
   if (!body) return wanted;
   const double tolerance = body->field.report().tolerance;
-  const double sag = refined_sag(garment, scene.subdivide);
-  const double gap = gap_with(wanted, sag, tolerance) + inner_depth(garment, body->exact);
-  if (gap > 1.5 * wanted)
-    context.warn("gap_raised",
-                 scene.garment.stem().string() + ": keeps " + geometry::length_text(gap) +
-                     " from the body, not " + geometry::length_text(wanted) +
-                     ", so strain and ease come out too large; " +
-                     remedy_of_gap(garment, sag, scene.subdivide, wanted, tolerance),
-                 scene.garment.string(), sag > tolerance ? "garment.subdivide" : "body.tolerance");
+  const double sag = refined_sag(garment, scene.subdivide), depth = inner_depth(garment, body->exact);
+  const double gap = gap_with(wanted, sag, tolerance) + depth;
+  if (gap <= 1.5 * wanted) return gap;
+  const bool by_side = depth > gap - depth - wanted;
+  context.warn("gap_raised",
+               scene.garment.stem().string() + ": keeps " + geometry::length_text(gap) +
+                   " from the body, not " + geometry::length_text(wanted) +
+                   ", so strain and ease come out too large; " +
+                   (by_side ? "its inner side lies " + geometry::length_text(depth) +
+                                  " nearer to the body: take that out of the file where it is not needed"
+                            : remedy_of_gap(garment, sag, scene.subdivide, wanted, tolerance, depth)),
+               scene.garment.string(),
+               by_side           ? "garment.mesh"
+               : sag > tolerance ? "garment.subdivide"
+                                 : "body.tolerance");
   return gap;
 }
 

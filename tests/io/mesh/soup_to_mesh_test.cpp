@@ -73,6 +73,17 @@ TEST_CASE("soup_to_mesh: backs in another material are the lining of their front
   CHECK(found == std::vector<int>{1, -1, 2, 2});
 }
 
+TEST_CASE("soup_to_mesh: a second back, and one without a material, are dropped and counted") {
+  io::PolygonSoup soup = soup_of(4, {{0, 1, 2}, {0, 2, 3}, {2, 1, 0}, {2, 1, 0}, {3, 2, 0}});
+  soup.materials = {0, 0, 1, 2, -1};
+  const auto out = io::soup_to_mesh(soup, "t");
+  CHECK(out.repairs.duplicate_faces == 2);
+  const auto lining = *find_map(out.mesh, attribute::lining);
+  std::vector<int> found;
+  for (const Face f : out.mesh.faces()) found.push_back(lining[f]);
+  CHECK(found == std::vector<int>{1, -1});
+}
+
 TEST_CASE("soup_to_mesh: a lining is written as OBJ and GLB, and read again") {
   const std::string text =
       "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nusemtl front\nf 1/1 2/2 3/3\nf 1/1 3/3 "

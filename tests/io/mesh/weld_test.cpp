@@ -88,6 +88,23 @@ TEST_CASE("weld: loose triangles become the mesh that they were cut from, with t
   }
 }
 
+TEST_CASE("weld: a lining stays, where its front has no material, too") {
+  io::MeshFile file;
+  Mesh& mesh = file.mesh;
+  const auto add = [&](const Point& a, const Point& b, const Point& c) {
+    return mesh.add_face(mesh.add_vertex(a), mesh.add_vertex(b), mesh.add_vertex(c));
+  };
+  const Face lined = add({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+  add({1, 0, 0}, {1, 1, 0}, {0, 1, 0});
+  ensure_map(mesh, attribute::lining)[lined] = 0;
+  const io::MeshFile joined = io::welded(file, "t");
+  CHECK(joined.mesh->number_of_vertices() == 4);
+  REQUIRE(joined.mesh->number_of_faces() == 2);
+  const auto lining = *find_map(joined.mesh, attribute::lining);
+  CHECK(lining[*joined.mesh->faces_begin()] == 0);
+  CHECK(lining[*std::next(joined.mesh->faces_begin())] == -1);
+}
+
 TEST_CASE("weld: a mesh without two vertices at one place keeps its vertices and faces") {
   io::MeshFile file;
   file.mesh = tests::jittered(6, 6, 0.2, 1);
