@@ -373,7 +373,7 @@ const Row<Scene> rows[] = {
      yes_no(FIELD(touch), false, true)},
     {{.path = "garment.attach",
       .keyword = "",
-      .what = "`false`: buttons, pockets and inner sides that lie on other cloth do not go with it"},
+      .what = "`false`: what lies on other cloth (buttons, pockets, inner sides, ends of straps) is not held to it"},
      yes_no(FIELD(attach), false, true)},
     {{.path = "garment.allow_crossings",
       .what = "pairs of faces of the cloth that may cross at the end; beyond it the exit code is 4",

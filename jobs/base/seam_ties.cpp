@@ -109,9 +109,12 @@ SeamTies refined_ties(const geometry::Mesh& before, const SeamTies& ties) {
   return refined;
 }
 
+double tie_stiffness(const io::SceneMaterial& material) {
+  return material.stretch ? bridge::spring_constant_of(*material.stretch) : material.stiffness;
+}
+
 void set_seam_ties(geometry::Mesh& mesh, const SeamTies& ties, const io::SceneMaterial& material) {
-  const double stiffness =
-      material.stretch ? bridge::spring_constant_of(*material.stretch) : material.stiffness;
+  const double stiffness = tie_stiffness(material);
   std::vector<geometry::Strut> all = geometry::struts(mesh);
   std::erase_if(all, [](const geometry::Strut& s) { return s.rest_length <= geometry::tie_length; });
   for (const auto& [a, b] : ties) all.push_back({a, b, geometry::tie_length, stiffness});

@@ -33,7 +33,10 @@ void warn_of_lost_ties(const geometry::Mesh& mesh, const std::filesystem::path& 
 /// the mid-points of edges whose ends are tied. O(V + E log E).
 SeamTies refined_ties(const geometry::Mesh& before, const SeamTies& ties);
 
-/// Adds them as struts, as stiff as the material's springs; other struts stay, ties that were there are
+/// How stiff ties are: as the material's springs [N/m].
+double tie_stiffness(const io::SceneMaterial& material);
+
+/// Adds them as struts; other struts stay, ties that were there are
 /// replaced.
 void set_seam_ties(geometry::Mesh& mesh, const SeamTies& ties, const io::SceneMaterial& material);
 

@@ -315,7 +315,8 @@ WrinkleReport draw_and_settle(const WrinkleJob& job, Budget& budget) {
                       report.quality ? &*report.quality : nullptr, context);
   stop_if_cancelled(context);
   if (!job.state && (!scene || scene->attach) && (!settle || settle->scene.attach)) {
-    attach_parts(canvas.file, name_of(job.garment, "the garment"), canvas.pins, context);
+    attach_parts(canvas.file, scene ? scene->material : io::SceneMaterial{},
+                 name_of(job.garment, "the garment"), canvas.pins, context);
     bridge::bring_riders_along(canvas.file.mesh);
   }
   if (scene) report.drawn.kept = keep_drawn(canvas, *scene, context);

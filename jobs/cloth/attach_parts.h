@@ -4,14 +4,24 @@
 #include <vector>
 
 #include "io/mesh/mesh_file.h"
+#include "io/scene/scene.h"
 #include "jobs/base/inputs.h"
 
 namespace furrow::jobs {
 
 /// Lets parts of a garment that lie on other cloth ride on it (geometry/figure/attached_parts.h), unless the
-/// file notes which ones do: then those that were drawn on since do no more. Warns of them, with the file's
-/// name. Parts with pinned vertices stay cloth. pins: vertices, by pin.
-void attach_parts(io::MeshFile& file, const std::string& name, const std::vector<std::vector<int>>& pins,
-                  const Context& context);
+/// file notes which ones do: then those that were drawn on since do no more. Ties ends that lie on cloth
+/// (ends_on_cloth.h), as stiff as the material. Warns of both, with the file's name. Parts with pinned
+/// vertices stay cloth, and what is pinned is not tied. pins: vertices, by pin.
+void attach_parts(io::MeshFile& file, const io::SceneMaterial& material, const std::string& name,
+                  const std::vector<std::vector<int>>& pins, const Context& context);
+
+/// Ties them on a garment that was refined, where struts are dropped. Nothing if `as_read` has no struts but
+/// those of seams.
+void tie_refined_ends(geometry::Mesh& mesh, const geometry::Mesh& as_read, const io::SceneMaterial& material);
+
+/// Struts of a garment that are neither those of seams nor of ends: bands, and what its maker set. O(faces
+/// log faces) if it has any.
+std::size_t own_struts(const geometry::Mesh& mesh);
 
 }  // namespace furrow::jobs

@@ -13,7 +13,6 @@
 #include "geometry/fold/fold_base.h"
 #include "geometry/mesh/border_loops.h"
 #include "geometry/mesh/edge_metric.h"
-#include "geometry/mesh/struts.h"
 #include "geometry/mesh/vertex_attributes.h"
 #include "geometry/refine/local_refinement.h"
 #include "geometry/rest/rest_metric.h"
@@ -22,6 +21,7 @@
 #include "jobs/base/measure_crossings.h"
 #include "jobs/base/read_inputs.h"
 #include "jobs/base/seam_ties.h"
+#include "jobs/cloth/attach_parts.h"
 #include "jobs/cloth/measure_shape.h"
 #include "jobs/cloth/scene_cloth.h"
 #include "jobs/rest/drape_garment.h"
@@ -229,8 +229,7 @@ GivenGarment read_given(const io::Scene& scene, const BodyCollider* body, const 
         "everywhere, as its gap to the body needs; with `subdivide` in its place you say how often",
         "finest", "garment.subdivide");
   require_refinement(given.file.mesh->number_of_faces(), 4, given.scene.subdivide, "subdivide", context);
-  if (given.scene.subdivide > 0 &&
-      geometry::struts(given.file.mesh).size() > seam_ties(given.file.mesh).size())
+  if (given.scene.subdivide > 0 && own_struts(given.file.mesh) > 0)
     context.warn("struts_dropped",
                  std::string(s.finest ? "`finest`" : "`subdivide`") +
                      " drops the struts that the garment has, its bands among them; say `band` again",

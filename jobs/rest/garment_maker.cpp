@@ -12,6 +12,7 @@
 #include "geometry/refine/local_refinement.h"
 #include "geometry/refine/subdivide.h"
 #include "jobs/base/read_inputs.h"
+#include "jobs/cloth/attach_parts.h"
 #include "jobs/cloth/pins.h"
 #include "jobs/cloth/prepare_garment.h"
 #include "jobs/cloth/scene_cloth.h"
@@ -85,6 +86,7 @@ physics::Cloth GarmentMaker::operator()(geometry::Mesh& mesh) {
   pins_ = find_pins(made, pins_on(mesh));
   complete_garment(made, scene_.material);
   tie_seams(mesh);
+  if (scene_.attach) tie_refined_ends(made.mesh, as_read_.mesh, scene_.material);
   bands_.clear();
   for (std::size_t i = 0; i < band_vertices_.size(); ++i)
     bands_.push_back(sew_band(made.mesh, loop_through(mesh, band_vertices_[i]),

@@ -34,6 +34,7 @@ furrow_add_tests(geometry geometry LIBRARIES furrow::geometry SOURCES
   refine/subdivide_test.cpp
   refine/transfer_shape_test.cpp
   figure/attached_parts_test.cpp
+  figure/ends_on_cloth_test.cpp
   figure/border_seams_test.cpp
   figure/close_holes_test.cpp
   figure/hem_folds_test.cpp

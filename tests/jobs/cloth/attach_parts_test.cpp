@@ -8,6 +8,7 @@
 #include "geometry/figure/attached_parts.h"
 #include "geometry/mesh/self_intersections.h"
 #include "geometry/mesh/sheet.h"
+#include "geometry/mesh/struts.h"
 #include "io/scene/scene.h"
 #include "io/scene/state_file.h"
 #include "jobs/chain/wrinkle.h"
@@ -111,11 +112,11 @@ TEST_CASE("attach_parts: what is pinned, and all of it where that is asked for, 
   const jobs::Context context{{}, recorder};
   io::MeshFile file;
   file.mesh = dressed.mesh;
-  jobs::attach_parts(file, "dressed", {{int(dressed.button)}}, context);
+  jobs::attach_parts(file, {}, "dressed", {{int(dressed.button)}}, context);
   const auto rides = geometry::rides_of(file.mesh);
   CHECK(std::count(rides.begin(), rides.end(), geometry::Ride::rigid) > 0);
   CHECK(std::count(rides.begin(), rides.end(), geometry::Ride::by_place) == 0);
-  jobs::attach_parts(file, "dressed", {}, context);
+  jobs::attach_parts(file, {}, "dressed", {}, context);
   CHECK(geometry::rides_of(file.mesh) == rides);  // the file notes which do
   for (const auto& [key, value] : {std::pair("attach", false), {"attach", true}}) {
     jobs::SimulateJob job;
@@ -155,13 +156,62 @@ TEST_CASE(
   CHECK(std::count(rides.begin(), rides.end(), geometry::Ride::by_place) == 0);
   CHECK(std::count(rides.begin(), rides.end(), geometry::Ride::rigid) > 0);
   const jobs::Context context{{}, recorder};
-  jobs::attach_parts(file, "dressed", {}, context);  // before it is drawn on
+  jobs::attach_parts(file, {}, "dressed", {}, context);  // before it is drawn on
   job.garment = file;
   const geometry::Mesh on_pocket = jobs::wrinkle(job, recorder).garment.mesh;
   CHECK(geometry::rides_of(on_pocket) == rides);
   double raised = 0;
   for (const geometry::Point& p : on_pocket.points()) raised = std::max(raised, p.z());
   CHECK(raised > off + 0.002);
+}
+
+TEST_CASE("attach_parts: a pocket that was drawn on is tied by its rim, in motion and at rest", "[release]") {
+  const Dressed dressed;
+  tests::Recorder recorder;
+  io::DrawnStroke ridge;
+  ridge.stroke.points = {{0.09, 0.09, off}, {0.11, 0.09, off}};
+  ridge.stroke.height = 0.003;
+  ridge.stroke.width = 0.02;
+  jobs::WrinkleJob draw;
+  io::MeshFile given;
+  given.mesh = dressed.mesh;
+  draw.garment = given;
+  draw.strokes = std::vector{ridge};
+  draw.options.detail = geometry::Detail::coarse;
+  const io::MeshFile drawn = jobs::wrinkle(draw, recorder).garment;
+  CHECK(recorder.warned_of("ends_tied"));
+  const std::size_t ties = geometry::struts(drawn.mesh).size();
+  REQUIRE(ties > 0);
+  CHECK(ties % 3 == 0);
+  const auto rim_strayed = [&](const geometry::Mesh& mesh) {
+    double most = 0;
+    for (std::size_t v = dressed.button; v < dressed.mesh.number_of_vertices(); ++v)
+      if (mesh.is_border(vertex(v)))
+        most = std::max(most, std::abs(from_sheet(mesh.point(vertex(v)), mesh, dressed) - off));
+    return most;
+  };
+  jobs::SceneInput scene = hung(dressed);
+  scene.memory.meshes["dressed"] = drawn;
+  for (const bool ties_kept : {true, false}) {
+    jobs::SimulateJob move;
+    move.scene = scene;
+    if (!ties_kept) geometry::set_struts(move.scene.memory.meshes["dressed"].mesh, {});
+    io::set_value(move.scene.settings, "garment.attach", ties_kept, "test");
+    CHECK((rim_strayed(jobs::simulate(move, recorder).garment.mesh) < 0.002) == ties_kept);
+  }
+  jobs::DrapeJob rest;
+  rest.scene = scene;
+  rest.scene.settings.root->erase("forces");
+  rest.scene.settings.root->erase("simulation");
+  const jobs::Draped once = jobs::drape(rest, recorder).garments.at(0);
+  CHECK(once.outcome() == "at rest");
+  CHECK(geometry::struts(once.file.mesh).size() == ties);
+  CHECK(rim_strayed(once.file.mesh) < 0.002);
+  CHECK(once.loose.empty());
+  rest.subdivide = 1;
+  const jobs::Draped finer = jobs::drape(rest, recorder).garments.at(0);
+  CHECK(geometry::struts(finer.file.mesh).size() > ties);
+  CHECK_FALSE(recorder.warned_of("struts_dropped"));
 }
 
 TEST_CASE("attach_parts: a drape takes no more iterations with button and pocket than without", "[release]") {
