@@ -23,6 +23,7 @@ constexpr double start_share = 0.9;             // of a distance, that a range b
 constexpr double growth = 1.2;                  // of such a range
 constexpr double as_touching = 1e-7;            // m: nearer at the start, a pair counts as crossing
 constexpr double cut_short = 1.0 / 32;          // share of a move
+constexpr double cut_by_half = 0.5;
 constexpr int pair_chunk = 512;
 constexpr double ways_ahead = 30;  // of a step among many, for which a list is made
 constexpr int most_rounds_of_approach = 40;
@@ -275,10 +276,13 @@ double ClothContact::safe_share(std::span<const Vec3> x, std::span<const Vec3> m
   const std::span<const ListedPair> pairs = pairs_on_way(x, move, most, pool);
   const std::vector<double>& share = shares(pairs, x, move, most, pool);
   braced_.clear();
+  cuts_.clear();
   double least = 1;
   PairKey first{};
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (share[i] < cut_short) braced_.push_back(brace(pairs[i], x));
+    if (share[i] < cut_by_half)
+      for (const int v : pairs[i].vertices) cuts_.push_back({v, share[i]});
     if (!(share[i] < least || (share[i] == least && least < 1 && pairs[i].key < first))) continue;
     least = share[i];
     first = pairs[i].key;

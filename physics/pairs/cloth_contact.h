@@ -7,6 +7,7 @@
 #include "physics/base/contact_term.h"
 #include "physics/base/thread_pool.h"
 #include "physics/linear/free_stiffness.h"
+#include "physics/pairs/ease_around.h"
 #include "physics/pairs/edge_face_crossings.h"
 #include "physics/pairs/pair_friction.h"
 #include "physics/pairs/pair_list.h"
@@ -124,7 +125,9 @@ class ClothContact : public ContactTerm {
   double nearest() const;                               ///< of them [m]; infinite: none
   int list_builds() const { return list_.builds(); }    ///< complete detections of what is near
   int cut_searches() const { return cut_searches_; }
-  int blocked() const { return blocked_; }                        ///< ways cut to less than 1/32, running
+  int blocked() const { return blocked_; }  ///< ways cut to less than 1/32, running
+  /// What cut the way that was asked of last to less than half.
+  std::span<const MoveCut> cuts() const { return cuts_; }
   std::optional<Vec3> blocked_at() const { return blocked_at_; }  ///< the pair that cut the last one [m]
   int crossed_at_start() const { return crossed_at_start_; }      ///< edges through faces
   int exempt() const;                                             ///< pairs that do not count yet
@@ -175,6 +178,7 @@ class ClothContact : public ContactTerm {
   std::vector<Met> met_;
   std::vector<ActivePair> active_;  ///< sorted by key
   std::vector<ActivePair> braced_;  ///< that cut the last way short
+  std::vector<MoveCut> cuts_;       ///< by half and more
   PairFriction friction_;
   double energy_ = 0, margin_share_;
   bool acted_ = false;

@@ -19,6 +19,7 @@
 #include "physics/contact/residual_force.h"
 #include "physics/linear/free_stiffness.h"
 #include "physics/pairs/cloth_contact.h"
+#include "physics/pairs/ease_around.h"
 #include "physics/rest/limited_memory.h"
 #include "physics/rest/stiffness_work.h"
 
@@ -45,6 +46,8 @@ constexpr double face_stiffness = 4;      // that many times the vertices'
 constexpr int most_blocked = 8;           // steps running that cloth cuts short, before it ends
 constexpr int most_refused = 30;          // steps running that lead nowhere, before it ends
 constexpr double nowhere = 1e-9;          // m
+constexpr double little_left = 0.1;       // of a move that cloth cuts: it is cut around that alone
+constexpr int most_rounds_of_easing = 4;
 constexpr std::size_t many = 10000;       // particles whose factors are of single precision, as that pays
 constexpr double single_residual = 1e-3;  // of the force, that a solution of those may leave
 
@@ -330,6 +333,26 @@ class Settler {
     return share;
   }
 
+  /// As far as nothing passes through cloth. Where that leaves little, the move is shortened around what cuts
+  /// it alone, if it goes downhill still.
+  void cut(const Vectors& net, Move& move) {
+    const double open = move.share;
+    move.share = safe_share(p_.x, move.way, open);
+    if (!pairs_ || !(move.share < little_left * open)) return;
+    Move eased = move;
+    std::vector<double> kept(p_.size(), 1);
+    for (int round = 0; round < most_rounds_of_easing && eased.share < 0.5 * open; ++round) {
+      ease_around(pairs_->cuts(), cloth_.triangles, kept);
+      for (std::size_t i = 0; i < kept.size(); ++i) eased.way[i] = kept[i] * move.way[i];
+      if (!(dot(net, eased.way) > 0)) break;
+      eased.share = safe_share(p_.x, eased.way, open);
+    }
+    if (eased.share > move.share && dot(net, eased.way) > 0)
+      move = std::move(eased);
+    else
+      move.share = safe_share(p_.x, move.way, open);  // what cuts it is known again
+  }
+
   /// Positions that were reached from others, without what would pass through cloth on the way.
   void keep_apart(const Vectors& from, Vectors& to) {
     Vectors way = to;
@@ -428,7 +451,7 @@ class Settler {
       net = net_force(here);
       move = find_move(inverse, net);
     }
-    move.share = safe_share(p_.x, move.way, move.share);
+    cut(net, move);
     Trial trial = search(here, net, move);
     const double share = trial.share;
     const bool refused = contact_ && share < move.share;

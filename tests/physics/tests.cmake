@@ -15,6 +15,7 @@ furrow_add_tests(physics physics LIBRARIES furrow::physics cases SOURCES
   cloth/woven_membrane_test.cpp
   cloth/patch_membrane_test.cpp
   cloth/pins_test.cpp
+  pairs/ease_around_test.cpp
   plate/plate_bending_test.cpp
   plate/plate_rigidity_test.cpp
   plate/plate_test.cpp
