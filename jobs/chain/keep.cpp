@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "bridge/arrays/store_rest_state.h"
+#include "bridge/draping/standing_body.h"
 #include "io/base/lower_case.h"
 #include "io/mesh/ply_motion.h"
 #include "io/scene/relocated.h"
@@ -30,6 +31,7 @@
 #include "jobs/rest/drape_garment.h"
 #include "physics/base/cancel_scope.h"
 #include "physics/cloth/pins.h"
+#include "physics/contact/residual_force.h"
 
 namespace furrow::jobs {
 namespace {
@@ -96,18 +98,29 @@ SceneCloth drawn_by(const io::Scene& scene, const Context& context,
   return prepare_scene(drawn, context, std::move(body));
 }
 
+/// Whether it is in balance with the rest state that it has, as a drape leaves it.
+bool rests_by_itself(const SceneCloth& garment, const io::Scene& scene, const physics::World& world) {
+  const std::optional<physics::PosedCollider> standing = bridge::standing_body(world);
+  const double residual = physics::residual_force(
+      garment.cloth, scene.simulation.gravity, standing ? &*standing : nullptr, scene.simulation.friction,
+      garment.options.contact_gap);
+  return residual <= EndLimits{}.residual;
+}
+
 /// What is wrong with keeping a garment as it lies on its body; empty: nothing. Friction may balance cloth
 /// that has not come to rest on a few vertices, between which it would sag.
 std::string why_unsettled(const SceneCloth& garment, const io::Scene& scene) {
   constexpr double out_of_balance = 1e-6, far_out = 1;  // of a vertex's weight
   constexpr double large_share = 0.05;                  // of the garment's weight, on one vertex
+  const physics::World world = garment.world(scene);
+  if (rests_by_itself(garment, scene, world)) return "";
   physics::Cloth cloth = garment.cloth;
   physics::PrestressOptions options;
   options.gravity = scene.simulation.gravity;
   options.friction = scene.simulation.friction;
   options.gap = garment.options.contact_gap;
   options.max_iterations = 60;  // twice those of garments that can be held
-  const bridge::KeptShape shape = bridge::keep_shape(cloth, garment.world(scene), options);
+  const bridge::KeptShape shape = bridge::keep_shape(cloth, world, options);
   const double residual = shape.rest.residual;
   if (residual > far_out || (residual > out_of_balance && !shape.rest.imbalance.empty()))
     return "nothing held it in balance as it lay";
