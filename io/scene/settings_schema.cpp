@@ -373,7 +373,8 @@ const Row<Scene> rows[] = {
      yes_no(FIELD(touch), false, true)},
     {{.path = "garment.attach",
       .keyword = "",
-      .what = "`false`: what lies on other cloth (buttons, pockets, inner sides, ends of straps) is not held to it"},
+      .what = "`false`: what lies on other cloth (buttons, pockets, inner sides, ends of straps) is not held "
+              "to it"},
      yes_no(FIELD(attach), false, true)},
     {{.path = "garment.allow_crossings",
       .what = "pairs of faces of the cloth that may cross at the end; beyond it the exit code is 4",

@@ -101,9 +101,9 @@ SceneCloth drawn_by(const io::Scene& scene, const Context& context,
 /// Whether it is in balance with the rest state that it has, as a drape leaves it.
 bool rests_by_itself(const SceneCloth& garment, const io::Scene& scene, const physics::World& world) {
   const std::optional<physics::PosedCollider> standing = bridge::standing_body(world);
-  const double residual = physics::residual_force(
-      garment.cloth, scene.simulation.gravity, standing ? &*standing : nullptr, scene.simulation.friction,
-      garment.options.contact_gap);
+  const double residual =
+      physics::residual_force(garment.cloth, scene.simulation.gravity, standing ? &*standing : nullptr,
+                              scene.simulation.friction, garment.options.contact_gap);
   return residual <= EndLimits{}.residual;
 }
 
