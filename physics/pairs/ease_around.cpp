@@ -17,7 +17,8 @@ void ease_around(std::span<const MoveCut> cuts, std::span<const std::array<int, 
   const std::vector<double> before = kept;
   for (const MoveCut& cut : cuts) {
     const auto i = std::size_t(cut.particle);
-    kept.at(i) = std::min(kept.at(i), clear * cut.share * before[i]);
+    double& own = kept.at(i);
+    own = std::min(own, clear * cut.share * before[i]);
   }
   for (int pass = 0; pass < edges_to_whole; ++pass)
     for (const std::array<int, 3>& t : triangles) {

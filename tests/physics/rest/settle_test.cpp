@@ -7,6 +7,7 @@
 #include "physics/base/cancel_scope.h"
 #include "physics/cloth/elastic_band.h"
 #include "physics/cloth/elements.h"
+#include "physics/cloth/pins.h"
 #include "physics/contact/residual_force.h"
 #include "tests/physics/body/test_bodies.h"
 #include "tests/physics/cloth/shell_cloths.h"
