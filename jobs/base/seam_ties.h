@@ -36,8 +36,7 @@ SeamTies refined_ties(const geometry::Mesh& before, const SeamTies& ties);
 /// How stiff ties are: as the material's springs [N/m].
 double tie_stiffness(const io::SceneMaterial& material);
 
-/// Adds them as struts; other struts stay, ties that were there are
-/// replaced.
+/// Adds them as struts of that stiffness; other struts stay, ties that were there are replaced.
 void set_seam_ties(geometry::Mesh& mesh, const SeamTies& ties, const io::SceneMaterial& material);
 
 /// Draws tied vertices that lie at one place apart, each towards its own faces by a hundredth of a

@@ -344,10 +344,10 @@ class Settler {
     for (int round = 0; round < most_rounds_of_easing && eased.share < 0.5 * open; ++round) {
       ease_around(pairs_->cuts(), cloth_.triangles, kept);
       for (std::size_t i = 0; i < kept.size(); ++i) eased.way[i] = kept[i] * move.way[i];
-      if (!(dot(net, eased.way) > 0)) break;
-      eased.share = safe_share(p_.x, eased.way, open);
+      eased.share = dot(net, eased.way) > 0 ? safe_share(p_.x, eased.way, open) : 0;
+      if (eased.share == 0) break;
     }
-    if (eased.share > move.share && dot(net, eased.way) > 0)
+    if (eased.share > move.share)
       move = std::move(eased);
     else
       move.share = safe_share(p_.x, move.way, open);  // what cuts it is known again
