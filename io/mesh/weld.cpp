@@ -125,6 +125,24 @@ MeshFile rebuilt(const MeshFile& file, const std::string& name, const BorderSeam
   return result;
 }
 
+std::size_t own_vertices(const MeshFile& file) {
+  return file.mesh->num_vertices() - file.repairs.duplicated_vertices;
+}
+
+/// The file as it was read, with these seams joined.
+MeshFile joined(const MeshFile& file, const std::string& name, const BorderSeams& seams) {
+  const std::vector<Vertex> into = joined_vertices(file.mesh, seams);
+  MeshFile result = rebuilt(file, name, seams);
+  std::size_t doubled = result.repairs.duplicated_vertices, merged = result.repairs.merged_vertices;
+  for (std::size_t v = own_vertices(file); v < into.size(); ++v)
+    doubled += into[v].idx() == v;  // these are still the last
+  result.repairs = file.repairs;
+  result.repairs.duplicated_vertices = doubled;
+  result.repairs.merged_vertices += merged;
+  result.warnings = file.warnings;
+  return result;
+}
+
 }  // namespace
 
 MeshFile welded(const MeshFile& file, const std::string& name) {
@@ -141,18 +159,22 @@ MeshFile welded(const MeshFile& file, const std::string& name) {
 MeshFile with_joined_seams(MeshFile file, const std::string& name) {
   const BorderSeams seams = find_border_seams(file.mesh, true);
   if (!seams.any()) return file;
-  const std::vector<Vertex> joined = joined_vertices(file.mesh, seams);
-  MeshFile result = rebuilt(file, name, seams);
-  std::size_t doubled = result.repairs.duplicated_vertices, merged = result.repairs.merged_vertices;
-  for (std::size_t v = joined.size() - file.repairs.duplicated_vertices; v < joined.size(); ++v)
-    doubled += joined[v].idx() == v;  // these are still the last
-  result.repairs = file.repairs;
-  result.repairs.duplicated_vertices = doubled;
-  result.repairs.merged_vertices += merged;
-  result.warnings = std::move(file.warnings);
+  MeshFile result = joined(file, name, seams);
   result.warnings.push_back(
       name + ": seams joined that lay open by a rounding: " + std::to_string(seams.apart.size()) +
       " vertices, up to " + length_text(seams.gap) + " apart");
+  return result;
+}
+
+MeshFile with_split_edges(MeshFile file, const std::string& name) {
+  if (find_map(file.mesh, attribute::rest_length)) return file;
+  const BorderSeams seams = find_border_seams(file.mesh);
+  if (seams.splits.empty()) return file;
+  MeshFile result = joined(file, name, seams);
+  if (own_vertices(result) != own_vertices(file)) return file;
+  result.polylines = std::move(file.polylines);
+  result.warnings.push_back(name + ": " + std::to_string(seams.splits.size()) +
+                            " vertices of seams lay amid an edge of the other side; faces are split there");
   return result;
 }
 

@@ -18,4 +18,9 @@ MeshFile welded(const MeshFile& file, const std::string& name);
 /// welded().
 MeshFile with_joined_seams(MeshFile file, const std::string& name);
 
+/// The file with faces split where vertices of a seam lie amid their edges, and a warning that says so.
+/// Itself where it has none, where vertices would go with it (welded() joins these), and where edges have
+/// rest lengths. What reading doubled there is joined again. Throws as welded().
+MeshFile with_split_edges(MeshFile file, const std::string& name);
+
 }  // namespace furrow::io

@@ -14,6 +14,7 @@
 #include "geometry/mesh/vertex_attributes.h"
 #include "io/base/lower_case.h"
 #include "io/mesh/mesh_file.h"
+#include "io/mesh/weld.h"
 #include "io/scene/scene_file.h"
 #include "io/scene/scene_rules.h"
 #include "io/scene/state_file.h"
@@ -99,6 +100,14 @@ io::MeshFile read_file(const std::string& path, const Context& context, Chains c
   return file;
 }
 
+io::MeshFile with_split_edges(io::MeshFile read, const std::string& name, const Context& context) {
+  const std::size_t told = read.warnings.size();
+  io::MeshFile file = io::with_split_edges(std::move(read), name);
+  for (std::size_t i = told; i < file.warnings.size(); ++i)
+    context.warn("edges_split", file.warnings[i], name, "`furrow doctor`");
+  return file;
+}
+
 }  // namespace
 
 void stop_if_cancelled(const Context& context) {
@@ -123,7 +132,7 @@ io::MeshFile read_mesh(const MeshInput& input, const Context& context, Chains ch
 
 io::MeshFile read_garment(const MeshInput& input, const Context& context, const std::string& what,
                           Chains chains) {
-  io::MeshFile file = read_mesh(input, context, chains);
+  io::MeshFile file = with_split_edges(read_mesh(input, context, chains), name_of(input, what), context);
   if (chains == Chains::refused || !geometry::is_chain(file.mesh))
     require_area(file.mesh, name_of(input, what));
   require_size(file.mesh, name_of(input, what), what, context);

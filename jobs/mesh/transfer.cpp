@@ -98,8 +98,7 @@ TransferReport transfer(const TransferJob& job, Listener& listener) {
   report.frame = job.frame;
   take_noted_frame(report.frame, names_of_inputs(job));
   const Context context{report.frame, listener};
-  report.result = read_mesh(job.original, context);
-  require_area(report.result.mesh, name_of(job.original, "the original"));
+  report.result = read_garment(job.original, context, "original");
   io::MeshFile wrinkled = read_mesh(job.wrinkled, context);
   require_area(wrinkled.mesh, name_of(job.wrinkled, "the wrinkled mesh"));
   if (job.rest) set_rest_positions(wrinkled.mesh, job, context);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <sstream>
 
 #include "geometry/figure/border_seams.h"
 #include "geometry/mesh/errors.h"
@@ -207,6 +208,36 @@ TEST_CASE("weld: panels of one mesh of a GLB are joined as they are read, those 
   CHECK(measure(io::with_joined_seams(two_panels(4), "t").mesh).components == 1);
   // With vertices amid edges faces would be split: only doctor does that.
   CHECK(measure(back(two_panels(8)).mesh).components == 2);
+}
+
+TEST_CASE("weld: faces are split amid whose edges a seam's vertices lie, where every vertex stays") {
+  const auto read = [](const std::string& more) {
+    std::istringstream text(
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 0.5 0\nv 2 0 0\nv 2 1 0\nl 1 2 6\n"
+        "f 1 2 3\nf 1 3 4\nf 2 6 5\nf 6 7 5\nf 5 7 3\n" +
+        more);
+    return io::read_mesh(text, io::MeshFormat::obj, "t");
+  };
+  const io::MeshFile file = read("");
+  REQUIRE(file.repairs.duplicated_vertices == 2);
+  const io::MeshFile split = io::with_split_edges(file, "t");
+  CHECK(split.mesh->number_of_vertices() == 7);
+  for (const Vertex v : split.mesh->vertices()) CHECK(split.mesh->point(v) == file.mesh->point(v));
+  CHECK(split.mesh->number_of_faces() == 6);
+  CHECK(split.repairs.duplicated_vertices == 0);
+  CHECK(measure(split.mesh).boundary_loops == 1);
+  CHECK(measure(split.mesh).area == Approx(2));
+  REQUIRE(split.polylines.size() == 1);
+  CHECK(split.polylines[0].vertices == std::vector<std::size_t>{0, 1, 5});
+  REQUIRE(split.warnings.size() == file.warnings.size() + 1);
+  CHECK(split.warnings.back() ==
+        "t: 1 vertices of seams lay amid an edge of the other side; faces are split there");
+  // What would lose a vertex stays, and what knows its rest lengths.
+  CHECK(io::with_split_edges(read("v 9 9 9\n"), "t").mesh->number_of_faces() == 5);
+  CHECK(io::with_split_edges(two_panels(8), "t").mesh->number_of_vertices() == 70);
+  io::MeshFile rests = file;
+  ensure_map(rests.mesh, attribute::rest_length);
+  CHECK(io::with_split_edges(rests, "t").mesh->number_of_faces() == 5);
 }
 
 TEST_CASE("weld: nothing is left of a mesh that is two corners wide") {

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "geometry/mesh/errors.h"
+#include "geometry/mesh/measures.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/sheet.h"
 #include "jobs/chain/wrinkle.h"
@@ -66,6 +67,31 @@ TEST_CASE("transfer: meshes in memory come to the bits of their files") {
   CHECK(to_json(a) == to_json(b));
   CHECK(tests::positions(io::read_mesh(folder / "moved.ply")) == tests::positions(b.result));
   CHECK(recorder.warnings.empty());
+}
+
+TEST_CASE("transfer: a seam with vertices amid its edges holds in every job, and its file keeps its faces") {
+  const fs::path folder = tests::empty_folder("transfer_seam");
+  const std::string faces = "f 1 2 3\nf 1 3 4\nf 2 6 5\nf 6 7 5\nf 5 7 3\n";
+  std::ofstream(folder / "yoke.obj") << "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 0.5 0\nv 2 0 0\nv 2 1 0\n" +
+                                            faces;
+  io::DrawnStroke ridge;
+  ridge.stroke.name = "across";
+  ridge.stroke.height = 0.1;
+  ridge.stroke.points = {{0.5, 0.7, 0}, {1.5, 0.7, 0}};
+  tests::Recorder recorder;
+  jobs::WrinkleJob draw;
+  draw.garment = folder / "yoke.obj";
+  draw.strokes = std::vector{ridge};
+  jobs::TransferJob job;
+  job.original = folder / "yoke.obj";
+  job.wrinkled = jobs::wrinkle(draw, recorder).garment;
+  job.output = folder / "ridged.obj";
+  CHECK(geometry::measure(tests::mesh_of(job.wrinkled).mesh).components == 1);
+  CHECK(recorder.warned_of("edges_split"));
+  const jobs::TransferReport report = jobs::transfer(job, recorder);
+  CHECK(report.moved.copied == 7);
+  CHECK(report.moved.interpolated == 0);
+  CHECK(tests::bytes_of(folder / "ridged.obj").find(faces) != std::string::npos);
 }
 
 TEST_CASE("transfer: polygons stay whole from OBJ to OBJ, and are warned of elsewhere") {
