@@ -3,6 +3,8 @@
 
 #include "geometry/fold/line_height.h"
 #include "geometry/fold/line_press.h"
+#include "geometry/fold/raise_layers.h"
+#include "geometry/mesh/measures.h"
 #include "geometry/mesh/press_map.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/rest/bending_springs.h"
@@ -53,6 +55,10 @@ void note_heights(std::vector<WrinkledLine>& lines, const std::vector<double>& b
 }
 
 void end_wrinkling(Mesh& mesh, const WrinkleOptions& options, WrinkleReport& report) {
+  if (const RaisedLayers over = raise_layers(mesh, report.undisplaced, options.held); over.vertices > 0)
+    report.warnings.push_back(std::to_string(over.vertices) +
+                              " vertices of cloth that lies over lines are raised with them, by up to " +
+                              length_text(over.most));
   report.total_mass = lump_masses(mesh, options.density);
   report.rest_area_after = rest_area(mesh);
   report.structural_springs = mesh.number_of_edges();

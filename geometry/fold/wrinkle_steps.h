@@ -20,7 +20,7 @@ void press_stored_hinges(Mesh& mesh, const LineShapes& shapes);
 void note_heights(std::vector<WrinkledLine>& lines, const std::vector<double>& base,
                   const std::vector<double>& drawn, const std::vector<double>& smoothed);
 
-/// Masses and sums of the finished mesh.
+/// Layers over the lines, masses and sums of the finished mesh.
 void end_wrinkling(Mesh& mesh, const WrinkleOptions& options, WrinkleReport& report);
 
 }  // namespace furrow::geometry

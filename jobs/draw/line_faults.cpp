@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "geometry/mesh/measures.h"
@@ -97,12 +96,13 @@ std::optional<Warning> layers_crossed(const Mesh& mesh, const geometry::WrinkleR
   if (now.pairs <= now.from_start || lines.undisplaced.size() != mesh.num_vertices()) return std::nullopt;
   Mesh flat = mesh;
   for (const Vertex v : flat.vertices()) flat.point(v) = lines.undisplaced[v.idx()];
-  const std::vector<std::array<Face, 2>> before = geometry::self_intersections(flat);
+  std::vector<char> crossed(mesh.num_faces(), 0);
+  for (const auto& [f, g] : geometry::self_intersections(flat)) crossed[f.idx()] = crossed[g.idx()] = 1;
   std::size_t pairs = 0, looked = 0;
   Vector sum = CGAL::NULL_VECTOR;
   for (const auto& [f, g] : geometry::self_intersections(mesh)) {
     physics::throw_if_cancelled("layers_crossed");
-    if (std::binary_search(before.begin(), before.end(), std::array{f, g})) continue;
+    if (crossed[f.idx()] || crossed[g.idx()]) continue;
     if (++looked > most_looked || lies_beside(flat, f, g)) continue;
     ++pairs;
     sum = sum + (centre_of(mesh, f) - CGAL::ORIGIN);

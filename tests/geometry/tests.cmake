@@ -60,6 +60,7 @@ furrow_add_tests(geometry geometry LIBRARIES furrow::geometry SOURCES
   fold/line_press_test.cpp
   fold/line_profile_test.cpp
   fold/line_region_test.cpp
+  fold/raise_layers_test.cpp
   fold/taubin_smooth_test.cpp
   fold/wrinkle_test.cpp
   quality/fold_quality_test.cpp

@@ -63,17 +63,20 @@ bool told_beside(const tests::Recorder& recorder) {
 
 }  // namespace
 
-TEST_CASE("wrinkle: a ridge under a pleat that goes through its other layers is no success, one on top is") {
+TEST_CASE(
+    "wrinkle: a ridge under a pleat raises its other layers, a valley on top that goes into them fails") {
   tests::Recorder below, above;
-  const auto through =
+  const auto under =
       draw(pleated(), {stroke("under", 0.015, {{0.24, 0.05, -0.001}, {0.24, 0.35, -0.001}})}, below);
-  REQUIRE(through.failures.size() == 1);
-  CHECK(through.failures[0].code == "layers_cross");
-  CHECK(through.failures[0].text.find("(0.2") != std::string::npos);  // where
-  CHECK(through.crossings.pairs > 20);
-  const auto on_top =
-      draw(pleated(), {stroke("over", 0.015, {{0.24, 0.05, 0.009}, {0.24, 0.35, 0.009}})}, above);
-  CHECK(on_top.failures.empty());
+  CHECK(under.failures.empty());
+  CHECK(under.crossings.pairs == 0);
+  CHECK(below.warned_of("drawing"));  // of the layers that went along
+  const auto into =
+      draw(pleated(), {stroke("into", -0.015, {{0.24, 0.05, 0.009}, {0.24, 0.35, 0.009}})}, above);
+  REQUIRE(into.failures.size() == 1);
+  CHECK(into.failures[0].code == "layers_cross");
+  CHECK(into.failures[0].text.find("(0.2") != std::string::npos);  // where
+  CHECK(into.crossings.pairs > 20);
 }
 
 TEST_CASE(
