@@ -19,7 +19,7 @@ namespace {
 constexpr double least_raise = 1e-6;         // [m]
 constexpr double reach_of_raise = 3;         // distance over the raise, beyond which a layer stays
 constexpr double beside = 0.3, above = 0.7;  // cosines with the normal: none and all of it lies over
-constexpr double enough = 1e-3;  // of a raise that may be missing
+constexpr double enough = 1e-3;              // of a raise that may be missing
 constexpr int most_passes = 20;
 
 /// Of one mesh at rest: a patch, where it lay, and how far each vertex is raised.
@@ -27,7 +27,7 @@ struct RaisedPatch {
   Mesh flat;
   std::vector<Vertex> vertices;  ///< of the whole
   std::vector<Vector> raise;     ///< by vertex of the patch [m]
-  double most = 0;               ///< [m]
+  CGAL::Bbox_3 box;              ///< of all that may be raised with it
 };
 
 /// What a place of a face over a patch asks for.
@@ -123,26 +123,30 @@ class LayerRaiser {
 
   RaisedPatch patch_of(std::vector<Face> faces) const {
     Patch cut = flat_patch(std::move(faces));
-    RaisedPatch patch{std::move(cut.mesh), std::move(cut.vertices), {}};
+    RaisedPatch patch{std::move(cut.mesh), std::move(cut.vertices), {}, {}};
+    double most = 0;
     for (const Vertex v : patch.vertices) {
       patch.raise.push_back(lines_[v.idx()]);
-      patch.most = std::max(patch.most, std::sqrt(patch.raise.back().squared_length()));
+      patch.box += flat_[v.idx()].bbox();
+      most = std::max(most, std::sqrt(patch.raise.back().squared_length()));
     }
+    const double r = reach_of_raise * most;
+    patch.box = {patch.box.xmin() - r, patch.box.ymin() - r, patch.box.zmin() - r,
+                 patch.box.xmax() + r, patch.box.ymax() + r, patch.box.zmax() + r};
     return patch;
+  }
+
+  static bool is_of(const RaisedPatch& patch, Vertex v) {
+    return std::binary_search(patch.vertices.begin(), patch.vertices.end(), v);
   }
 
   /// The vertices of the whole that may lie over a patch, but its own.
   std::vector<Vertex> near_to(const RaisedPatch& patch) const {
-    CGAL::Bbox_3 box;
-    for (const Vertex v : patch.flat.vertices()) box += patch.flat.point(v).bbox();
-    const double reach = reach_of_raise * patch.most;
     std::vector<Vertex> near;
-    for (const Vertex v : mesh_.vertices()) {
-      const Point& p = flat_[v.idx()];
-      bool inside = !held_[v.idx()] && !mesh_.is_isolated(v);
-      for (int k = 0; k < 3; ++k) inside = inside && p[k] > box.min(k) - reach && p[k] < box.max(k) + reach;
-      if (inside && !std::binary_search(patch.vertices.begin(), patch.vertices.end(), v)) near.push_back(v);
-    }
+    for (const Vertex v : mesh_.vertices())
+      if (CGAL::do_overlap(patch.box, flat_[v.idx()].bbox()) && !held_[v.idx()] && !mesh_.is_isolated(v) &&
+          !is_of(patch, v))
+        near.push_back(v);
     return near;
   }
 
@@ -177,7 +181,9 @@ class LayerRaiser {
       if (patch.raise[v.idx()].squared_length() > least_raise * least_raise)
         ways.emplace_back(way_over(patch, v).bbox(), v.idx());
     for (const Face f : mesh_.faces())
-      if (!of_patch(patch, f)) faces.emplace_back(flat_triangle(f).bbox(), f.idx());
+      if (const CGAL::Bbox_3 box = flat_triangle(f).bbox();
+          CGAL::do_overlap(patch.box, box) && !touches(patch, f))
+        faces.emplace_back(box, f.idx());
     std::vector<LayerLift> lifts;
     CGAL::box_intersection_d(ways.begin(), ways.end(), faces.begin(), faces.end(),
                              [&](const LayerBox& way, const LayerBox& face) {
@@ -196,11 +202,9 @@ class LayerRaiser {
     return {p, p + reach_of_raise * patch.raise[v.idx()]};
   }
 
-  bool of_patch(const RaisedPatch& patch, Face f) const {
+  bool touches(const RaisedPatch& patch, Face f) const {
     const auto c = corners_of(mesh_, f);
-    return std::any_of(c.begin(), c.end(), [&](Vertex v) {
-      return std::binary_search(patch.vertices.begin(), patch.vertices.end(), v);
-    });
+    return std::any_of(c.begin(), c.end(), [&](Vertex v) { return is_of(patch, v); });
   }
 
   CGAL::Triangle_3<Point::R> flat_triangle(Face f) const {
