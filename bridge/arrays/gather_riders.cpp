@@ -3,12 +3,14 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <map>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "bridge/arrays/convert.h"
 #include "geometry/figure/attached_parts.h"
+#include "geometry/mesh/property_names.h"
 #include "geometry/stroke/project_onto_surface.h"
 #include "physics/cloth/riders.h"
 
@@ -102,6 +104,32 @@ class RiderGatherer {
   geometry::SurfaceProjector surface_;
 };
 
+/// A vertex that is one with another at a seam goes with that one, which may ride itself.
+void add_joined(const geometry::Mesh& mesh, std::vector<physics::Rider>& riders) {
+  const auto joined = geometry::find_map(mesh, geometry::attribute::joined);
+  if (!joined) return;
+  std::map<int, physics::Rider> known;
+  for (const physics::Rider& rider : riders) known.emplace(rider.particle, rider);
+  for (const geometry::Vertex v : mesh.vertices()) {
+    const geometry::Vertex with(geometry::Vertex::size_type((*joined)[v]));
+    if ((*joined)[v] < 0 || !mesh.is_isolated(v) || !mesh.has_valid_index(with) || mesh.is_isolated(with))
+      continue;
+    if (const auto rides = known.find(int(with)); rides != known.end()) {
+      riders.push_back(rides->second);
+      riders.back().particle = int(v);
+      continue;
+    }
+    for (const geometry::Halfedge h : mesh.halfedges_around_target(mesh.halfedge(with))) {
+      if (mesh.is_border(h)) continue;
+      riders.push_back({int(v),
+                        {int(with), int(mesh.target(mesh.next(h))), int(mesh.source(h))},
+                        physics::Vec3::UnitX(),
+                        physics::Vec3::Zero()});
+      break;
+    }
+  }
+}
+
 void give_mass(const physics::Rider& rider, physics::Particles& p) {
   const double mass = std::exchange(p.mass[std::size_t(rider.particle)], 0);
   p.inv_mass[std::size_t(rider.particle)] = 0;
@@ -118,8 +146,10 @@ void give_mass(const physics::Rider& rider, physics::Particles& p) {
 std::vector<physics::Rider> riders_of(const geometry::Mesh& mesh) {
   const std::vector<Ride> rides = geometry::rides_of(mesh);
   const auto of_cloth = std::count(rides.begin(), rides.end(), Ride::none);
-  if (of_cloth == std::ssize(rides) || of_cloth == 0) return {};
-  return RiderGatherer(mesh, rides).gather();
+  std::vector<physics::Rider> riders;
+  if (of_cloth != std::ssize(rides) && of_cloth != 0) riders = RiderGatherer(mesh, rides).gather();
+  add_joined(mesh, riders);
+  return riders;
 }
 
 void gather_riders(const geometry::Mesh& mesh, physics::Cloth& cloth) {

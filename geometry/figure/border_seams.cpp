@@ -35,12 +35,12 @@ struct BorderNode {
 
 class SeamFinder {
  public:
-  SeamFinder(const Mesh& mesh, bool as_read) : mesh_(mesh) {
-    if (as_read) group_ = find_map(mesh, attribute::group);
+  SeamFinder(const Mesh& mesh, const SeamOptions& options) : mesh_(mesh), options_(options) {
+    if (options.within_groups) group_ = find_map(mesh, attribute::group);
     gather();
     for (std::size_t i = 0; i < along_.size(); ++i) find_near(i);
     match();
-    if (!as_read && split()) match();
+    if (options.split && split()) match();
   }
 
   BorderSeams find() {
@@ -212,7 +212,7 @@ class SeamFinder {
       gap = std::max(gap, distance_of(i, j));
       splits = splits || nodes_[i].t > 0 || nodes_[j].t > 0;
     }
-    if ((gap == 0 && !splits) || !is_seam(run, gap)) return;
+    if ((gap == 0 && !splits && !options_.closed) || !is_seam(run, gap)) return;
     gap_ = std::max(gap_, gap);
     for (const auto& [a, b] : meet) {
       const BorderNode &i = nodes_[a], &j = nodes_[b];
@@ -224,6 +224,7 @@ class SeamFinder {
   }
 
   const Mesh& mesh_;
+  SeamOptions options_;
   std::optional<FaceMap<int>> group_;
   std::vector<BorderNode> nodes_;                      ///< at vertices, then amid edges
   std::vector<std::pair<double, std::size_t>> along_;  ///< those at vertices, by skew()
@@ -237,10 +238,10 @@ class SeamFinder {
 
 }  // namespace
 
-BorderSeams find_border_seams(const Mesh& mesh, bool as_read) {
+BorderSeams find_border_seams(const Mesh& mesh, const SeamOptions& options) {
   require_structure(mesh, "border_seams");
   require_finite(mesh, "border_seams");
-  return SeamFinder(mesh, as_read).find();
+  return SeamFinder(mesh, options).find();
 }
 
 std::vector<Vertex> joined_vertices(const Mesh& mesh, const BorderSeams& seams) {
@@ -256,6 +257,15 @@ std::vector<Vertex> joined_vertices(const Mesh& mesh, const BorderSeams& seams) 
   }
   for (Vertex& v : joined) v = lowest(v);
   return joined;
+}
+
+void close_joined(Mesh& mesh) {
+  const auto joined = find_map(mesh, attribute::joined);
+  if (!joined) return;
+  for (const Vertex v : mesh.vertices())
+    if (const Vertex with(Vertex::size_type((*joined)[v]));
+        (*joined)[v] >= 0 && mesh.is_isolated(v) && mesh.has_valid_index(with))
+      mesh.point(v) = mesh.point(with);
 }
 
 }  // namespace furrow::geometry

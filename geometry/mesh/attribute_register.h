@@ -96,6 +96,7 @@ inline const std::tuple attribute_register{
         attribute::contact_level, "m", {fresh, fresh, "simulate"}, {PlyValue::state, {"contact_level"}}},
     Attribute{
         attribute::rest_position, "m", {blend, blend}, {PlyValue::position, {"rest_x", "rest_y", "rest_z"}}},
+    Attribute{attribute::joined, "", {fresh, fresh}, {PlyValue::index, {"joined"}}},
     // Of faces and their corners.
     Attribute{attribute::texture, "", {computed, blend, "MeshEditor"}, {PlyValue::texture, {"texcoord"}}},
     Attribute{attribute::group, "", {copy, copy}, {PlyValue::index, {"group"}}},

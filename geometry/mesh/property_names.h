@@ -44,6 +44,8 @@ inline constexpr PropertyName<Vertex, Color> color{"v:color", {1, 1, 1, 1}};
 /// on. Insertion sets it where it is unset and gives new vertices the interpolated one; nothing moves it.
 inline constexpr PropertyName<Vertex, RestPosition> rest_position{"v:rest_position",
                                                                   {unset_value, unset_value, unset_value}};
+/// The vertex that this one is one with at a seam that its file leaves open; no face has it; -1 = none.
+inline constexpr PropertyName<Vertex, int> joined{"v:joined", -1};
 /// Rest length of the structural spring on an edge [m].
 inline constexpr PropertyName<Edge, double> rest_length{"e:rest_length", unset_value};
 /// Rest length of the bending spring that joins the two vertices opposite an edge [m]; NaN = none.

@@ -30,16 +30,18 @@ BorderSeams at_one_place(const Mesh& mesh, BorderSeams seams) {
   return seams;
 }
 
-/// Of vertices that are joined, the first, in order; returns the point of each vertex.
-std::vector<std::size_t> take_points(const Mesh& mesh, const std::vector<Vertex>& joined, PolygonSoup& soup) {
+/// Of vertices that are joined, the first, in order; returns the point of each vertex. Of the first `kept`
+/// each has a point, which no face need have.
+std::vector<std::size_t> take_points(const Mesh& mesh, const std::vector<Vertex>& joined, std::size_t kept,
+                                     PolygonSoup& soup) {
   const auto color = find_map(mesh, attribute::color);
   const auto others = vertex_attributes(mesh);
   for (const VertexAttribute& a : others) soup.attributes.push_back({a.name, {}});
   std::vector<std::size_t> point(mesh.num_vertices(), 0);
   for (Vertex v : mesh.vertices()) {
-    if (mesh.is_isolated(v)) continue;
-    point[v.idx()] = joined[v.idx()] == v ? soup.points.size() : point[joined[v.idx()].idx()];
-    if (joined[v.idx()] != v) continue;
+    const bool is_first = joined[v.idx()] == v;
+    point[v.idx()] = is_first ? soup.points.size() : point[joined[v.idx()].idx()];
+    if (v.idx() >= kept && (!is_first || mesh.is_isolated(v))) continue;
     soup.points.push_back(mesh.point(v));
     if (color) soup.colors.push_back((*color)[v]);
     for (std::size_t k = 0; k < others.size(); ++k) soup.attributes[k].values.push_back(others[k].values[v]);
@@ -110,10 +112,24 @@ void take_faces(const Mesh& mesh, const std::vector<std::size_t>& point, std::sp
   }
 }
 
-/// The file with pairs of vertices joined into the first of them, and faces split.
-MeshFile rebuilt(const MeshFile& file, const std::string& name, const BorderSeams& seams) {
+void take_diagonals(const Mesh& before, const std::vector<std::size_t>& point, Mesh& mesh) {
+  const auto was = find_map(before, attribute::diagonal);
+  if (!was) return;
+  auto diagonal = ensure_map(mesh, attribute::diagonal);
+  const auto at = [&](Vertex v) { return Vertex(Vertex::size_type(point[v.idx()])); };
+  for (const Edge e : before.edges())
+    if (const Halfedge h = mesh.halfedge(at(before.vertex(e, 0)), at(before.vertex(e, 1)));
+        (*was)[e] && h != Mesh::null_halfedge())
+      diagonal[mesh.edge(h)] = true;
+}
+
+/// The file with pairs of vertices joined into the first of them, and faces split; the first `kept` vertices
+/// stay, if without faces.
+MeshFile rebuilt(const MeshFile& file, const std::string& name, const BorderSeams& seams,
+                 std::size_t kept = 0) {
   PolygonSoup soup;
-  const std::vector<std::size_t> point = take_points(file.mesh, joined_vertices(file.mesh, seams), soup);
+  const std::vector<std::size_t> point =
+      take_points(file.mesh, joined_vertices(file.mesh, seams), kept, soup);
   take_faces(file.mesh, point, seams.splits, soup);
   MeshFile result = file;
   result.mesh = Mesh();
@@ -122,24 +138,25 @@ MeshFile rebuilt(const MeshFile& file, const std::string& name, const BorderSeam
   result.repairs = {};
   result.repairs.merged_vertices = file.mesh->number_of_vertices() - soup.points.size();
   set_mesh(result, soup, name);
+  take_diagonals(file.mesh, point, result.mesh);
   return result;
 }
 
-std::size_t own_vertices(const MeshFile& file) {
-  return file.mesh->num_vertices() - file.repairs.duplicated_vertices;
-}
-
 /// The file as it was read, with these seams joined.
-MeshFile joined(const MeshFile& file, const std::string& name, const BorderSeams& seams) {
+MeshFile joined(const MeshFile& file, const std::string& name, const BorderSeams& seams, bool keeps) {
+  const std::size_t own = file.mesh->num_vertices() - file.repairs.duplicated_vertices;
   const std::vector<Vertex> into = joined_vertices(file.mesh, seams);
-  MeshFile result = rebuilt(file, name, seams);
+  MeshFile result = rebuilt(file, name, seams, keeps ? own : 0);
   std::size_t doubled = result.repairs.duplicated_vertices, merged = result.repairs.merged_vertices;
-  for (std::size_t v = own_vertices(file); v < into.size(); ++v)
-    doubled += into[v].idx() == v;  // these are still the last
+  for (std::size_t v = own; v < into.size(); ++v) doubled += into[v].idx() == v;  // these are still the last
   result.repairs = file.repairs;
   result.repairs.duplicated_vertices = doubled;
   result.repairs.merged_vertices += merged;
   result.warnings = file.warnings;
+  if (!keeps) return result;
+  auto same = ensure_map(result.mesh, attribute::joined);
+  for (std::size_t v = 0; v < own; ++v)
+    if (into[v].idx() != v) same[Vertex(Vertex::size_type(v))] = int(into[v]);
   return result;
 }
 
@@ -157,24 +174,25 @@ MeshFile welded(const MeshFile& file, const std::string& name) {
 }
 
 MeshFile with_joined_seams(MeshFile file, const std::string& name) {
-  const BorderSeams seams = find_border_seams(file.mesh, true);
+  const BorderSeams seams = find_border_seams(file.mesh, {.within_groups = true, .split = false});
   if (!seams.any()) return file;
-  MeshFile result = joined(file, name, seams);
+  MeshFile result = joined(file, name, seams, false);
   result.warnings.push_back(
       name + ": seams joined that lay open by a rounding: " + std::to_string(seams.apart.size()) +
       " vertices, up to " + length_text(seams.gap) + " apart");
   return result;
 }
 
-MeshFile with_split_edges(MeshFile file, const std::string& name) {
+MeshFile with_seams_as_one(MeshFile file, const std::string& name) {
   if (find_map(file.mesh, attribute::rest_length)) return file;
-  const BorderSeams seams = find_border_seams(file.mesh);
-  if (seams.splits.empty()) return file;
-  MeshFile result = joined(file, name, seams);
-  if (own_vertices(result) != own_vertices(file)) return file;
+  const BorderSeams seams = find_border_seams(file.mesh, {.closed = true});
+  if (!seams.any()) return file;
+  MeshFile result = joined(file, name, seams, true);
   result.polylines = std::move(file.polylines);
-  result.warnings.push_back(name + ": " + std::to_string(seams.splits.size()) +
-                            " vertices of seams lay amid an edge of the other side; faces are split there");
+  result.warnings.push_back(
+      name + ": seams joined that its file leaves open: " + std::to_string(seams.pairs.size()) +
+      " vertices, up to " + length_text(seams.gap) + " from the other side, and " +
+      std::to_string(seams.splits.size()) + " amid an edge of it");
   return result;
 }
 

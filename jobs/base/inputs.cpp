@@ -100,11 +100,11 @@ io::MeshFile read_file(const std::string& path, const Context& context, Chains c
   return file;
 }
 
-io::MeshFile with_split_edges(io::MeshFile read, const std::string& name, const Context& context) {
+io::MeshFile with_seams_as_one(io::MeshFile read, const std::string& name, const Context& context) {
   const std::size_t told = read.warnings.size();
-  io::MeshFile file = io::with_split_edges(std::move(read), name);
+  io::MeshFile file = io::with_seams_as_one(std::move(read), name);
   for (std::size_t i = told; i < file.warnings.size(); ++i)
-    context.warn("edges_split", file.warnings[i], name, "`furrow doctor`");
+    context.warn("seams_joined", file.warnings[i], name, "`furrow doctor`");
   return file;
 }
 
@@ -132,7 +132,7 @@ io::MeshFile read_mesh(const MeshInput& input, const Context& context, Chains ch
 
 io::MeshFile read_garment(const MeshInput& input, const Context& context, const std::string& what,
                           Chains chains) {
-  io::MeshFile file = with_split_edges(read_mesh(input, context, chains), name_of(input, what), context);
+  io::MeshFile file = with_seams_as_one(read_mesh(input, context, chains), name_of(input, what), context);
   if (chains == Chains::refused || !geometry::is_chain(file.mesh))
     require_area(file.mesh, name_of(input, what));
   require_size(file.mesh, name_of(input, what), what, context);

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "bridge/arrays/gather_riders.h"
+#include "geometry/figure/border_seams.h"
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/refine/subdivide.h"
@@ -319,6 +320,7 @@ WrinkleReport draw_and_settle(const WrinkleJob& job, Budget& budget) {
                  name_of(job.garment, "the garment"), canvas.pins, context);
     bridge::bring_riders_along(canvas.file.mesh);
   }
+  geometry::close_joined(canvas.file.mesh);
   if (scene) report.drawn.kept = keep_drawn(canvas, *scene, context);
   if (job.max_weights) limit_noted_weights(canvas.file, *job.max_weights);
   if (scene) warn_if_shape_only(job.output, context);

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "geometry/mesh/border_loops.h"
+#include "geometry/mesh/property_names.h"
 #include "geometry/mesh/select_vertices.h"
 #include "jobs/base/inputs.h"
 
@@ -51,6 +52,7 @@ bool belongs_to(const geometry::Mesh& mesh, Vertex v, std::size_t old_count, IsP
 std::vector<std::vector<int>> find_pins(const io::MeshFile& file, const std::vector<io::ScenePins>& scene) {
   std::vector<std::vector<int>> all;
   std::set<int> taken;
+  const auto joined = geometry::find_map(file.mesh, geometry::attribute::joined);
   for (const io::ScenePins& p : scene) {
     std::vector<int> pins = p.vertices;
     for (int v : pins)
@@ -65,6 +67,8 @@ std::vector<std::vector<int>> find_pins(const io::MeshFile& file, const std::vec
       add_named(pins, loops.at(geometry::find_border_loop(loops, p.loop)).vertices, "the pin loop " + p.loop);
     }
     if (!p.group.empty()) add_named(pins, group(file, p.group), "the pin group " + p.group);
+    for (int& v : pins)
+      if (const int with = joined ? (*joined)[Vertex(Vertex::size_type(v))] : -1; with >= 0) v = with;
     std::erase_if(pins, [&](int v) { return !taken.insert(v).second; });  // the first that names it leads it
     all.push_back(std::move(pins));
   }

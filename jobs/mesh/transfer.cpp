@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "geometry/figure/border_seams.h"
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/property_names.h"
 #include "io/base/atomic_file.h"
@@ -107,6 +108,7 @@ TransferReport transfer(const TransferJob& job, Listener& listener) {
   report.moved = naming(name_of(job.wrinkled, "the wrinkled mesh"), [&] {
     return geometry::transfer_shape(report.result.mesh, wrinkled.mesh, job.options);
   });
+  geometry::close_joined(report.result.mesh);
   report.crossings = measure_crossings(report.result, &crossed);
   if (report.crossings.pairs) context.warn("cloth_crosses", words(report.crossings), job.output.string());
   report.end.crossings = report.crossings.pairs;

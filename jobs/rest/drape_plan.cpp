@@ -72,10 +72,10 @@ double inner_depth(const geometry::Mesh& garment, const physics::Collider& body)
   struct Depth {
     double sum = 0, most = 0;  // of its vertices [m]
   };
-  const std::vector<physics::Rider> riders = bridge::riders_of(garment);
-  if (riders.empty()) return 0;
-  const geometry::Parts parts = geometry::find_parts(garment);
   const std::vector<geometry::Ride> rides = geometry::rides_of(garment);
+  if (rides.empty()) return 0;
+  const std::vector<physics::Rider> riders = bridge::riders_of(garment);
+  const geometry::Parts parts = geometry::find_parts(garment);
   const auto at = [&](int v) {
     return bridge::to_eigen(garment.point(geometry::Vertex(geometry::Vertex::size_type(v))));
   };
@@ -84,7 +84,9 @@ double inner_depth(const geometry::Mesh& garment, const physics::Collider& body)
     physics::Vec3 under = physics::Vec3::Zero();
     for (std::size_t i = 0; i < 3; ++i) under += r.weights[Eigen::Index(i)] * at(r.triangle[i]);
     const double nearer = body.at(under).value - body.at(at(r.particle)).value;
-    Depth& depth = depths[std::size_t(parts.of_vertex[std::size_t(r.particle)])];
+    const int part = parts.of_vertex[std::size_t(r.particle)];
+    if (part < 0) continue;  // it is one with another at a seam
+    Depth& depth = depths[std::size_t(part)];
     depth.sum += nearer, depth.most = std::max(depth.most, nearer);
   }
   double most = 0;

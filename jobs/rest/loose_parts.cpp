@@ -8,6 +8,7 @@
 
 #include "bridge/arrays/convert.h"
 #include "geometry/mesh/parts.h"
+#include "geometry/mesh/property_names.h"
 #include "geometry/mesh/struts.h"
 #include "geometry/refine/local_refinement.h"
 #include "geometry/refine/subdivide.h"
@@ -161,6 +162,9 @@ void drop_parts(io::MeshFile& file, std::span<const int> seeds) {
   for (geometry::Strut& s : struts)
     if (s.b < s.a) std::swap(s.a, s.b);
   geometry::set_struts(mesh, struts);
+  if (const auto joined = geometry::find_map(mesh, geometry::attribute::joined))
+    for (const geometry::Vertex v : mesh.vertices())
+      if (int& with = (*joined)[v]; with >= 0) with = places.of_vertex[std::size_t(with)];
   std::erase_if(file.polylines, [&](const io::Polyline& l) {
     return std::any_of(l.vertices.begin(), l.vertices.end(), gone);
   });

@@ -84,8 +84,7 @@ std::vector<EdgeFaceCrossing> edge_face_crossings(const PairMesh& mesh, std::spa
     tree.each_meeting(sweep.box(f, 0), 0, [&](int place) {
       const int number = order[std::size_t(place)];
       const auto& e = mesh.edges[std::size_t(number)];
-      for (const int v : f)
-        if (v == e[0] || v == e[1] || !may_touch(mesh, v, e[0])) return;
+      if (are_neighbours(mesh, e, f) || !may_touch(mesh, f[0], e[0])) return;
       if (crosses(at(e[0]), at(e[1]), at(f[0]), at(f[1]), at(f[2]))) found.push_back({number, int(t)});
     });
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "physics/base/require.h"
 
@@ -10,6 +11,7 @@ namespace furrow::physics {
 namespace {
 
 constexpr double share_of_altitude = 0.25;
+constexpr double no_length = 1e-9;  // [m] of a spring that joins its ends
 
 using Edge = std::array<int, 2>;
 struct KnownLength {
@@ -92,6 +94,22 @@ void find_neighbours(PairMesh& mesh) {
     for (const int v : mesh.triangles[t]) mesh.around[std::size_t(next[std::size_t(v)]++)] = int(t);
 }
 
+void find_knots(PairMesh& mesh, const Cloth& cloth) {
+  std::vector<int>& knot = mesh.knot;
+  knot.resize(cloth.particles.size());
+  std::iota(knot.begin(), knot.end(), 0);
+  const auto lowest = [&](int v) {
+    while (knot[std::size_t(v)] != v) v = knot[std::size_t(v)] = knot[std::size_t(knot[std::size_t(v)])];
+    return v;
+  };
+  for (const Spring& s : cloth.bending) {
+    if (s.rest_length > no_length) continue;
+    const int a = lowest(s.a), b = lowest(s.b);
+    knot[std::size_t(std::max(a, b))] = std::min(a, b);
+  }
+  for (int& v : knot) v = lowest(v);
+}
+
 void find_radii(PairMesh& mesh) {
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const auto& t = mesh.triangles[i];
@@ -133,6 +151,7 @@ PairMesh pair_mesh(const Cloth& cloth, double thickness, std::span<const double>
   for (const double w : cloth.particles.inv_mass) mesh.held.push_back(!(w > 0));
   find_edges(mesh, cloth);
   find_neighbours(mesh);
+  find_knots(mesh, cloth);
   find_radii(mesh);
   return mesh;
 }

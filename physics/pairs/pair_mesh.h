@@ -22,14 +22,26 @@ struct PairMesh {
   std::vector<char> held;                 ///< by vertex: it does not move
   std::vector<char> used;                 ///< by vertex: a triangle has it
   std::vector<int> around, around_begin;  ///< triangles around vertices, and where each vertex's begin
-  std::vector<int> group;                 ///< by vertex: two groups do not touch; empty: all is one
-  double mean_edge = 0;                   ///< h [m]
-  double largest_radius = 0;              ///< [m]
+  /// By vertex: the lowest that springs of no length, 1e-9 m or less, join it with; what has one of these has
+  /// all, so that the two sides of a tied seam are neighbours.
+  std::vector<int> knot;
+  std::vector<int> group;     ///< by vertex: two groups do not touch; empty: all is one
+  double mean_edge = 0;       ///< h [m]
+  double largest_radius = 0;  ///< [m]
 };
 
 /// Whether a mesh lets what has one vertex touch what has the other.
 inline bool may_touch(const PairMesh& mesh, int a, int b) {
   return mesh.group.empty() || mesh.group[std::size_t(a)] == mesh.group[std::size_t(b)];
+}
+
+/// Whether one of the two has a vertex of the other.
+template <std::size_t k, std::size_t n>
+bool are_neighbours(const PairMesh& mesh, const std::array<int, k>& a, const std::array<int, n>& b) {
+  for (const int v : a)
+    for (const int w : b)
+      if (mesh.knot[std::size_t(v)] == mesh.knot[std::size_t(w)]) return true;
+  return false;
 }
 
 /// Lengths at rest are those of the membrane's triangles, else of structural springs, else of tension, else

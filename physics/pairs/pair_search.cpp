@@ -86,9 +86,10 @@ struct Itself {
   std::array<int, 1> operator[](std::size_t i) const { return {int(i)}; }
 };
 
-/// Rows of numbers and of the vertices of these, -1 where there are no more.
+/// Rows of numbers and of the knots of their vertices, -1 where there are no more.
 template <class Primitives, class Fours>
-void add_fours(std::span<const int> numbers, std::size_t rows, const Primitives& primitives, Fours& fours) {
+void add_fours(std::span<const int> numbers, std::size_t rows, const Primitives& primitives,
+               const std::vector<int>& knot, Fours& fours) {
   constexpr Int4 none{-1, -1, -1, -1};
   for (std::size_t row = 0; row < rows; ++row) {
     fours.numbers.push_back(none);
@@ -96,7 +97,7 @@ void add_fours(std::span<const int> numbers, std::size_t rows, const Primitives&
     for (std::size_t i = 4 * row; i < std::min(numbers.size(), 4 * row + 4); ++i) {
       fours.numbers.back()[i % 4] = numbers[i];
       const auto v = primitives[std::size_t(numbers[i])];
-      for (std::size_t j = 0; j < v.size(); ++j) fours.vertices.back()[j][i % 4] = v[j];
+      for (std::size_t j = 0; j < v.size(); ++j) fours.vertices.back()[j][i % 4] = knot[std::size_t(v[j])];
     }
   }
 }
@@ -106,9 +107,9 @@ void add_fours(std::span<const int> numbers, std::size_t rows, const Primitives&
 /// `triangles`: eight at most; they always fill two fours.
 void PairSearch::add_group(std::span<const int> triangles, std::span<const int> edges,
                            std::span<const int> vertices) {
-  add_fours(edges, rows_of(edges.size()), mesh_->edges, edges_);
-  add_fours(vertices, rows_of(vertices.size()), Itself{}, vertices_);
-  add_fours(triangles, 2, mesh_->triangles, triangles_);
+  add_fours(edges, rows_of(edges.size()), mesh_->edges, mesh_->knot, edges_);
+  add_fours(vertices, rows_of(vertices.size()), Itself{}, mesh_->knot, vertices_);
+  add_fours(triangles, 2, mesh_->triangles, mesh_->knot, triangles_);
   fours_of_edges_.push_back(int(edges_.numbers.size()));
   fours_of_vertices_.push_back(int(vertices_.numbers.size()));
 }

@@ -19,8 +19,8 @@ struct Candidate {
 
 /// Finds which primitives of a cloth have boxes that meet, by groups of eight triangles that are neighbours,
 /// with the edges and vertices that no group before them has: groups are found in a tree of their boxes, then
-/// four boxes are compared at a time. Groups are made anew when they have come apart. Nothing that shares a
-/// vertex is told.
+/// four boxes are compared at a time. Groups are made anew when they have come apart. Neighbours
+/// (are_neighbours()) are not told.
 class PairSearch {
  public:
   /// The mesh must outlive it.
@@ -50,7 +50,7 @@ class PairSearch {
   struct Fours {
     std::vector<FourBoxes> boxes;
     std::vector<Int4> numbers;                  // -1: an empty lane
-    std::vector<std::array<Int4, k>> vertices;  // -1 there, too
+    std::vector<std::array<Int4, k>> vertices;  // their knots; -1 there, too
     LaneBox box(int i) const { return boxes[std::size_t(i) / 4].lane(std::size_t(i) % 4); }
     int number(int i) const { return numbers[std::size_t(i) / 4][std::size_t(i) % 4]; }
     std::array<int, k> corners(int i) const {

@@ -131,13 +131,15 @@ TEST_CASE("border_seams: the sides of two panels are found, the lower vertices f
   CHECK(sheet.vertices == 2 * 121 - 11);
 }
 
-TEST_CASE("border_seams: beyond a hundredth of an edge, and without any gap, there is none") {
+TEST_CASE(
+    "border_seams: beyond a hundredth of an edge, and without any gap unless asked for, there is none") {
   CHECK_FALSE(find_border_seams(two_panels(10, 10, 1.01e-3)).any());
   Mesh touching = grid(10, 10);
   append(touching, moved(grid(10, 10), {1, 0, 0}));
   for (const Vertex v : touching.vertices())  // 0.9 + 0.1 is not 1
     touching.point(v) = {std::round(touching.point(v).x() * 10) / 10, touching.point(v).y(), 0};
   CHECK_FALSE(find_border_seams(touching).any());
+  CHECK(find_border_seams(touching, {.closed = true}).pairs.size() == 11);
   CHECK_FALSE(find_border_seams(grid(4, 4)).any());
   CHECK_FALSE(find_border_seams(icosphere(1)).any());
 }
@@ -192,17 +194,18 @@ TEST_CASE("border_seams: vertices amid the edges of the other side are found, wi
     const Point a = yoke.point(yoke.source(s.border)), b = yoke.point(yoke.target(s.border));
     CHECK(std::sqrt(CGAL::squared_distance(a + s.t * (b - a), yoke.point(s.at))) < 2e-5);
   }
-  CHECK_FALSE(find_border_seams(yoke, true).any());
+  CHECK_FALSE(find_border_seams(yoke, {.split = false}).any());
 }
 
 TEST_CASE("border_seams: of groups that are not to be joined the borders are not seen beside each other") {
+  const SeamOptions as_read{.within_groups = true, .split = false};
   Mesh panels = two_panels(10, 10, 1e-5);
   auto group = ensure_map(panels, attribute::group);
   for (const Face f : panels.faces()) group[f] = 0;
-  CHECK(find_border_seams(panels, true).pairs.size() == 11);
+  CHECK(find_border_seams(panels, as_read).pairs.size() == 11);
   for (const Face f : panels.faces()) group[f] = panels.point(corners_of(panels, f)[0]).x() > 1;
   CHECK(find_border_seams(panels).pairs.size() == 11);
-  CHECK_FALSE(find_border_seams(panels, true).any());
+  CHECK_FALSE(find_border_seams(panels, as_read).any());
 }
 
 TEST_CASE(

@@ -95,7 +95,7 @@ TEST_CASE("PLY: every attribute of the register has its columns and comes back w
       "property double force_jump_x\nproperty double force_jump_y\nproperty double force_jump_z\n"
       "property double contact_x\nproperty double contact_y\nproperty double contact_z\n"
       "property double contact_level\nproperty double rest_x\nproperty double rest_y\nproperty double "
-      "rest_z\n"
+      "rest_z\nproperty int joined\n"
       "element face 12\nproperty list uchar int vertex_indices\nproperty list uchar double texcoord\n"
       "property int group\nproperty int material\nproperty int lining\nproperty double warp_x\n"
       "property double warp_y\nproperty double warp_z\nproperty int rides\nproperty int generation\nproperty "

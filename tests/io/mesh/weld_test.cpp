@@ -210,7 +210,7 @@ TEST_CASE("weld: panels of one mesh of a GLB are joined as they are read, those 
   CHECK(measure(back(two_panels(8)).mesh).components == 2);
 }
 
-TEST_CASE("weld: faces are split amid whose edges a seam's vertices lie, where every vertex stays") {
+TEST_CASE("weld: open seams are joined as they are read, and every vertex of the file stays") {
   const auto read = [](const std::string& more) {
     std::istringstream text(
         "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 0.5 0\nv 2 0 0\nv 2 1 0\nl 1 2 6\n"
@@ -218,10 +218,10 @@ TEST_CASE("weld: faces are split amid whose edges a seam's vertices lie, where e
         more);
     return io::read_mesh(text, io::MeshFormat::obj, "t");
   };
-  const io::MeshFile file = read("");
+  const io::MeshFile file = read("v 9 9 9\n");
   REQUIRE(file.repairs.duplicated_vertices == 2);
-  const io::MeshFile split = io::with_split_edges(file, "t");
-  CHECK(split.mesh->number_of_vertices() == 7);
+  const io::MeshFile split = io::with_seams_as_one(file, "t");
+  CHECK(split.mesh->number_of_vertices() == 8);
   for (const Vertex v : split.mesh->vertices()) CHECK(split.mesh->point(v) == file.mesh->point(v));
   CHECK(split.mesh->number_of_faces() == 6);
   CHECK(split.repairs.duplicated_vertices == 0);
@@ -230,14 +230,33 @@ TEST_CASE("weld: faces are split amid whose edges a seam's vertices lie, where e
   REQUIRE(split.polylines.size() == 1);
   CHECK(split.polylines[0].vertices == std::vector<std::size_t>{0, 1, 5});
   REQUIRE(split.warnings.size() == file.warnings.size() + 1);
-  CHECK(split.warnings.back() ==
-        "t: 1 vertices of seams lay amid an edge of the other side; faces are split there");
-  // What would lose a vertex stays, and what knows its rest lengths.
-  CHECK(io::with_split_edges(read("v 9 9 9\n"), "t").mesh->number_of_faces() == 5);
-  CHECK(io::with_split_edges(two_panels(8), "t").mesh->number_of_vertices() == 70);
+  CHECK(split.warnings.back().find("and 1 amid an edge of it") != std::string::npos);
   io::MeshFile rests = file;
   ensure_map(rests.mesh, attribute::rest_length);
-  CHECK(io::with_split_edges(rests, "t").mesh->number_of_faces() == 5);
+  CHECK(io::with_seams_as_one(rests, "t").mesh->number_of_faces() == 5);
+}
+
+TEST_CASE("weld: a seam with a gap, and one without, is one, and says which vertices are") {
+  const double gap = GENERATE(0.0, 1e-5);
+  io::MeshFile file = two_panels(8);
+  for (const Vertex v : file.mesh->vertices())
+    if (v.idx() >= 25) file.mesh->point(v) = file.mesh->point(v) + Vector(gap - 1e-5, 0, 0);
+  const io::MeshFile one = io::with_seams_as_one(file, "t");
+  CHECK(one.mesh->number_of_vertices() == 70);
+  CHECK(measure(one.mesh).components == 1);
+  has_its_texture(one.mesh, 2e-5);
+  const auto joined = find_map(one.mesh, attribute::joined);
+  REQUIRE(joined);
+  std::size_t count = 0;
+  for (const Vertex v : one.mesh->vertices()) {
+    CHECK(((*joined)[v] >= 0) == one.mesh->is_isolated(v));
+    if ((*joined)[v] < 0) continue;
+    ++count;
+    CHECK(CGAL::squared_distance(one.mesh->point(v),
+                                 file.mesh->point(Vertex(Vertex::size_type((*joined)[v])))) < 1e-9);
+  }
+  CHECK(count == 5);
+  CHECK(one.repairs.merged_vertices == 0);
 }
 
 TEST_CASE("weld: nothing is left of a mesh that is two corners wide") {

@@ -87,7 +87,7 @@ TEST_CASE("transfer: a seam with vertices amid its edges holds in every job, and
   job.wrinkled = jobs::wrinkle(draw, recorder).garment;
   job.output = folder / "ridged.obj";
   CHECK(geometry::measure(tests::mesh_of(job.wrinkled).mesh).components == 1);
-  CHECK(recorder.warned_of("edges_split"));
+  CHECK(recorder.warned_of("seams_joined"));
   const jobs::TransferReport report = jobs::transfer(job, recorder);
   CHECK(report.moved.copied == 7);
   CHECK(report.moved.interpolated == 0);
