@@ -122,6 +122,7 @@ struct Scene {
   int layer = -1;      ///< of several garments, from the inside to the outside; -1: by their place
   bool touch = true;   ///< of several garments, whether it touches the others
   bool attach = true;  ///< parts that lie on other cloth ride on it (jobs/cloth/attach_parts.h)
+  bool join = true;    ///< seams that the garment's file leaves open are one (io/mesh/weld.h)
   std::optional<double> thickness;    ///< of the cloth, where layers and folds are kept apart [m]; none: 1 mm
   int subdivide = 0;                  ///< times that Loop subdivision is applied before the first line
   int allow_crossings = 0;            ///< pairs of faces that may cross at the end; >= 0

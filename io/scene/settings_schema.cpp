@@ -376,6 +376,8 @@ const Row<Scene> rows[] = {
       .what = "`false`: what lies on other cloth (buttons, pockets, inner sides, ends of straps) is not held "
               "to it"},
      yes_no(FIELD(attach), false, true)},
+    {{.path = "garment.join", .keyword = "", .what = "`false`: seams that the file leaves open stay open"},
+     yes_no(FIELD(join), false, true)},
     {{.path = "garment.allow_crossings",
       .what = "pairs of faces of the cloth that may cross at the end; beyond it the exit code is 4",
       .used = used_by::simulate | used_by::drape,

@@ -103,7 +103,7 @@ void add_doubled(const Mesh& mesh, const Places& places, std::vector<Ailment>& f
   a.text = std::to_string(places.doubled.size()) + " of " + std::to_string(places.used) +
            " vertices lie where another does" +
            (soup ? ": the file is a soup of loose triangles, which would fall apart"
-                 : ": what meets there is not joined, and falls apart");
+                 : ": what meets there is not joined");
   a.help = "`furrow doctor repair` joins them";
   a.count = places.doubled.size();
   a.fatal = soup;
@@ -122,9 +122,8 @@ void add_open_seams(const Mesh& mesh, std::vector<Ailment>& found) {
     a.count = count, a.mendable = true;
     for (std::size_t i = 0; i < std::min(count, most_marks); ++i) a.places.push_back(place_of(i));
     const Point& p = a.places[0];
-    a.text = fmt::format(
-        "{}{}: what meets there is not joined, and comes apart; the first at ({:.3f}, {:.3f}, {:.3f}) m",
-        count, what, p.x(), p.y(), p.z());
+    a.text = fmt::format("{}{}: what meets there is not joined; the first at ({:.3f}, {:.3f}, {:.3f}) m",
+                         count, what, p.x(), p.y(), p.z());
     found.push_back(std::move(a));
   };
   add("seams_apart", seams.apart.size(),

@@ -104,7 +104,8 @@ io::MeshFile with_seams_as_one(io::MeshFile read, const std::string& name, const
   const std::size_t told = read.warnings.size();
   io::MeshFile file = io::with_seams_as_one(std::move(read), name);
   for (std::size_t i = told; i < file.warnings.size(); ++i)
-    context.warn("seams_joined", file.warnings[i], name, "`furrow doctor`");
+    context.warn("seams_joined", file.warnings[i] + "; `garment.join=false` leaves them open", name,
+                 "garment.join");
   return file;
 }
 
@@ -131,10 +132,11 @@ io::MeshFile read_mesh(const MeshInput& input, const Context& context, Chains ch
 }
 
 io::MeshFile read_garment(const MeshInput& input, const Context& context, const std::string& what,
-                          Chains chains) {
-  io::MeshFile file = with_seams_as_one(read_mesh(input, context, chains), name_of(input, what), context);
+                          Chains chains, bool joins) {
+  io::MeshFile file = read_mesh(input, context, chains);
   if (chains == Chains::refused || !geometry::is_chain(file.mesh))
     require_area(file.mesh, name_of(input, what));
+  if (joins) file = with_seams_as_one(std::move(file), name_of(input, what), context);
   require_size(file.mesh, name_of(input, what), what, context);
   return file;
 }

@@ -29,10 +29,10 @@ enum class Chains { refused, taken };
 /// memory is copied. Throws as io::read_mesh().
 io::MeshFile read_mesh(const MeshInput& input, const Context& context, Chains chains = Chains::refused);
 
-/// As read_mesh(); throws geometry::ContentError for a garment, or what else it is, of an odd size or without
-/// area (check/gate.h).
+/// As read_mesh(), with open seams joined (io/mesh/weld.h), which a warning says, unless `joins` is false;
+/// throws geometry::ContentError for a garment, or what else it is, of an odd size or without area (gate.h).
 io::MeshFile read_garment(const MeshInput& input, const Context& context, const std::string& what = "garment",
-                          Chains chains = Chains::refused);
+                          Chains chains = Chains::refused, bool joins = true);
 
 /// Does it; a geometry::ContentError of it then begins with the file's name.
 template <class Work>

@@ -139,7 +139,8 @@ UndrawnScene rest_scene(const io::Scene& scene, bool refines, const WorldBody& b
   UndrawnScene begun = undrawn(scene, context).value_or(as_it_is);
   if (!refines || begun.scene.lines.empty()) return as_it_is;
   SilentListener silent(context.listener);
-  const io::MeshFile garment = read_garment(begun.scene.garment, {context.frame, silent, &begun.memory});
+  const io::MeshFile garment = read_garment(begun.scene.garment, {context.frame, silent, &begun.memory},
+                                            "garment", Chains::refused, begun.scene.join);
   begun.scene.subdivide = refinements_for_gap(garment.mesh, scene.simulation.contact_gap, body.tolerance());
   return begun.scene.subdivide > 0 ? begun : as_it_is;
 }

@@ -103,6 +103,23 @@ std::vector<io::DrawnStroke> strokes_of(const WrinkleJob& job, const Context& co
   return strokes;
 }
 
+/// What the job's settings bring to rest, in the frame of the drawing. Throws std::invalid_argument where
+/// nothing would hold it.
+io::Scene rest_scene(const WrinkleJob& job, const Frame& frame) {
+  io::TomlDocument document = job.settle->settings;
+  io::set_value(document, "garment.mesh", name_of(job.garment, "garment"), "furrow wrinkle");
+  take_default_cloth(document, "furrow wrinkle");
+  io::Scene scene = scene_of(document, job.settle->folder);
+  scene.unit = frame.unit;
+  scene.up = frame.up;
+  if (!scene.body && scene.pins.empty())
+    throw std::invalid_argument(
+        "`settle`: the garment rests on a body or hangs from what holds it: name a body with `body`, or what "
+        "is held with `pin_loop`, `pin_group`, `pin_box` or `pin_vertices`");
+  check_made_for(job.made_for, scene);
+  return scene;
+}
+
 /// The garment, perhaps in motion.
 struct Canvas {
   io::MeshFile file;
@@ -118,7 +135,8 @@ Canvas canvas_of(const WrinkleJob& job, const io::Scene* keep, const Context& co
     refuse_chain(canvas.file.mesh, job.state_path.string());
     canvas.pins = canvas.state->pins;
   } else {
-    canvas.file = read_garment(job.garment, context);
+    const bool joins = job.settle ? rest_scene(job, context.frame).join : !keep || keep->join;
+    canvas.file = read_garment(job.garment, context, "garment", Chains::refused, joins);
     const SeamTies ties = all_ties(canvas.file, name_of(job.garment, "the garment"), context);
     if (!ties.empty()) set_seam_ties(canvas.file.mesh, ties, keep ? keep->material : io::SceneMaterial{});
     if (keep) canvas.pins = find_pins(canvas.file, keep->pins);
@@ -219,23 +237,6 @@ void look_at_lines(const WrinkleJob& job, const io::MeshFile& file, const Crosse
     context.warn("cloth_crosses", words(report.crossings), where, "lines.height");
   if (const auto turned = lines_inside_out(file.mesh, lines))
     context.warn(turned->code, turned->text, where, turned->help);
-}
-
-/// What the job's settings bring to rest, in the frame of the drawing. Throws std::invalid_argument where
-/// nothing would hold it.
-io::Scene rest_scene(const WrinkleJob& job, const Frame& frame) {
-  io::TomlDocument document = job.settle->settings;
-  io::set_value(document, "garment.mesh", name_of(job.garment, "garment"), "furrow wrinkle");
-  take_default_cloth(document, "furrow wrinkle");
-  io::Scene scene = scene_of(document, job.settle->folder);
-  scene.unit = frame.unit;
-  scene.up = frame.up;
-  if (!scene.body && scene.pins.empty())
-    throw std::invalid_argument(
-        "`settle`: the garment rests on a body or hangs from what holds it: name a body with `body`, or what "
-        "is held with `pin_loop`, `pin_group`, `pin_box` or `pin_vertices`");
-  check_made_for(job.made_for, scene);
-  return scene;
 }
 
 /// Where what is drawn comes to rest.

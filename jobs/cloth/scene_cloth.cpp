@@ -71,7 +71,7 @@ void subdivide_tied(io::MeshFile& file, const io::Scene& scene, const Context& c
 
 io::MeshFile begin_garment(const io::Scene& scene, const Context& context, Chains chains) {
   stop_if_cancelled(context);
-  io::MeshFile file = read_garment(scene.garment, context, "garment", chains);
+  io::MeshFile file = read_garment(scene.garment, context, "garment", chains, scene.join);
   stop_if_cancelled(context);
   check_chain(scene, file.mesh, context);
   if (geometry::is_chain(file.mesh)) return file;

@@ -429,8 +429,8 @@ Judgement choose_setting(const SimulateJob& job, OpenScene& scene, const Context
   check(options);
   SilentListener silent(context.listener);  // the run itself warns
   if (scene.scene.body) {
-    const io::MeshFile garment =
-        read_garment(scene.scene.garment, {context.frame, silent, context.memory}, "garment", Chains::taken);
+    const io::MeshFile garment = read_garment(scene.scene.garment, {context.frame, silent, context.memory},
+                                              "garment", Chains::taken, scene.scene.join);
     body = std::make_shared<WorldBody>(*scene.scene.body, context, tolerance_for(garment));
   }
   const SceneCloth cloth =

@@ -43,7 +43,7 @@ TEST_CASE("doctor: the program says what is wrong, shows where, mends it and exi
   CHECK(run_furrow("doctor " + mesh + " --repair -o " + mesh).exit_code == 2);
 }
 
-TEST_CASE("doctor: panels 10 um apart are told with count, place and remedy, by drape, too, and joined") {
+TEST_CASE("doctor: panels 10 um apart are told with count, place and remedy, and joined, in motion, too") {
   const ScratchDirectory scratch;
   const std::string mesh = scratch / "panels.obj", mended = scratch / "mended.obj";
   std::string text;
@@ -60,12 +60,12 @@ TEST_CASE("doctor: panels 10 um apart are told with count, place and remedy, by 
   CHECK(found.exit_code == 4);
   CHECK_THAT(found.out,
              Contains("found: 6 vertices of seams lie up to 0.01 mm from the other side (a seam is joined "
-                      "within 1/100 of its edges, here 2 mm): what meets there is not joined, and comes "
-                      "apart; the first at (1.000, 0.000, 0.000) m; furrow doctor --repair joins them"));
+                      "within 1/100 of its edges, here 2 mm): what meets there is not joined; the first at "
+                      "(1.000, 0.000, 0.000) m; furrow doctor --repair joins them"));
   const Run hung =
       run_furrow("simulate " + mesh + " --pin-loop top --seconds 0.001 -o " + (scratch / "hung.ply"));
-  CHECK_THAT(hung.err, Contains("6 vertices of seams lie up to 0.01 mm from the other side"));
-  CHECK_THAT(hung.err, Contains("furrow doctor --repair joins them"));
+  CHECK_THAT(hung.err, Contains("seams joined that its file leaves open: 6 vertices, up to 0.01 mm"));
+  CHECK_THAT(hung.err, Contains("--set garment.join=false leaves them open"));
   CHECK(run_furrow("doctor " + mesh + " --repair -o " + mended).exit_code == 0);
   CHECK(examined(mended)["well"] == true);
   CHECK(examined(mended)["components"] == 1);

@@ -8,6 +8,8 @@
 #include "geometry/mesh/struts.h"
 #include "geometry/refine/subdivide.h"
 #include "jobs/chain/wrinkle.h"
+#include "jobs/cloth/pins.h"
+#include "jobs/cloth/scene_cloth.h"
 #include "jobs/mesh/doctor.h"
 #include "jobs/mesh/subdivide.h"
 #include "jobs/move/simulate.h"
@@ -73,6 +75,26 @@ TEST_CASE("seam_ties: what reading doubled is tied, on every level of refinement
   jobs::close_seam_ties(mesh);
   CHECK(widest(mesh, ties) == 0);
   CHECK(jobs::doubled_vertices(io::MeshFile{}).empty());
+}
+
+TEST_CASE("open_seams: panels are one garment, with every vertex, unless the scene leaves them open") {
+  const fs::path folder = tests::empty_folder("open_seams");
+  std::ofstream(folder / "panels.obj") << "v 0 0 0\nv 0.1 0 0\nv 0.1 0.1 0\nv 0 0.1 0\nv 0.1 0 0\nv 0.2 0 0\n"
+                                          "v 0.2 0.1 0\nv 0.1 0.1 0\nf 1 2 3 4\nf 5 6 7 8\n";
+  io::Scene scene;
+  scene.garment = folder / "panels.obj";
+  scene.join = GENERATE(true, false);
+  tests::Recorder recorder;
+  const io::MeshFile file = jobs::begin_garment(scene, {jobs::Frame{}, recorder});
+  CHECK(geometry::measure(file.mesh).components == (scene.join ? 1 : 2));
+  CHECK(file.mesh->number_of_vertices() == 8);
+  CHECK(recorder.warned_of("seams_joined") == scene.join);
+  CHECK(recorder.warned_of("unjoined") == !scene.join);
+  // Pins that name a vertex that is one with another hold that one.
+  io::ScenePins pins;
+  pins.vertices = {4, 1};
+  const std::vector<std::vector<int>> held = jobs::find_pins(file, {pins});
+  CHECK(held == std::vector<std::vector<int>>{scene.join ? std::vector{1} : std::vector{4, 1}});
 }
 
 TEST_CASE("seam_ties: a sheet that is held by its flap hangs on it, and is one piece when it is read again",
