@@ -60,8 +60,9 @@ void SceneFlags::add_to(CLI::App& sub, unsigned subcommand) {
     g.option = sub.add_flag(flags_of(s), g.is_on, io::described(s, flag_name));
   }
   add_pin_flags(sub, subcommand);
-  if (subcommand & io::used_by::wrinkle) return;
-  begin_group(sub, group_of("simulation", subcommand));
+  const bool draws = subcommand & io::used_by::wrinkle;
+  begin_group(sub, draws ? group::cloth : group_of("simulation", subcommand),
+              draws ? Audience::few : Audience::everyone);
   sub.add_option("--set", sets_,
                  "any setting of a scene, as key=value: --set body.motion.spin.rate=3; may be given again")
       ->allow_extra_args(false);

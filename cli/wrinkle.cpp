@@ -133,6 +133,23 @@ SceneInput surroundings(const WrinkleArguments& a, const WrinkleJob& job) {
   return {document, job.state_path.parent_path()};
 }
 
+/// What else than lines a drawing that neither is kept nor rests is told of its garment.
+void take_sets(const WrinkleArguments& a, WrinkleJob& job) {
+  io::TomlDocument document;
+  a.flags.apply(document);
+  for (const auto& [table, values] : document.root->items())
+    for (const auto& [key, value] : values.items())
+      if (bool* field = key == "attach" ? &job.attach
+                        : key == "join" ? &job.join
+                                        : nullptr;
+          field && table == "garment" && value.is_boolean())
+        *field = value;
+      else
+        throw UsageError("--set " + table + "." + key +
+                         ": goes with --rest keep or --settle; without them garment.attach and garment.join "
+                         "do, true or false");
+}
+
 WrinkleJob job_of(const WrinkleArguments& a) {
   WrinkleJob job = a.job;
   job.frame = a;
@@ -147,6 +164,7 @@ WrinkleJob job_of(const WrinkleArguments& a) {
   check_rule(a, job);
   if (job.keep) job.keep = surroundings(a, job);
   if (job.settle) job.settle = surroundings(a, job);
+  if (!job.keep && !job.settle) take_sets(a, job);
   job.wants_stages = !a.preview.empty() && !job.settle;
   job.more_outputs = {a.preview, a.camera.save_camera};
   job.more_inputs = {a.camera.camera};

@@ -18,10 +18,11 @@ MeshFile welded(const MeshFile& file, const std::string& name);
 /// welded().
 MeshFile with_joined_seams(MeshFile file, const std::string& name);
 
-/// The file with all its open seams joined, also those without a gap, and faces split where vertices of a seam
-/// lie amid their edges, with a warning that says so. Every vertex of the file stays: one that is joined to
-/// another has no face any more, and says with which it is one (attribute::joined). What reading doubled there
-/// is one again. Itself where it has no such seam, and where edges have rest lengths. Throws as welded().
+/// The file with all its open seams joined, also those without a gap, and faces split where vertices of a
+/// seam lie amid their edges, with a warning that says so. Every vertex of the file stays: one that is joined
+/// to another has no face any more, and says with which it is one (attribute::joined). What reading doubled
+/// there is one again. Itself where it has no such seam, and where edges have rest lengths. Throws as
+/// welded().
 MeshFile with_seams_as_one(MeshFile file, const std::string& name);
 
 }  // namespace furrow::io

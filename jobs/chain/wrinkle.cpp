@@ -135,7 +135,7 @@ Canvas canvas_of(const WrinkleJob& job, const io::Scene* keep, const Context& co
     refuse_chain(canvas.file.mesh, job.state_path.string());
     canvas.pins = canvas.state->pins;
   } else {
-    const bool joins = job.settle ? rest_scene(job, context.frame).join : !keep || keep->join;
+    const bool joins = job.settle ? rest_scene(job, context.frame).join : keep ? keep->join : job.join;
     canvas.file = read_garment(job.garment, context, "garment", Chains::refused, joins);
     const SeamTies ties = all_ties(canvas.file, name_of(job.garment, "the garment"), context);
     if (!ties.empty()) set_seam_ties(canvas.file.mesh, ties, keep ? keep->material : io::SceneMaterial{});
@@ -316,7 +316,7 @@ WrinkleReport draw_and_settle(const WrinkleJob& job, Budget& budget) {
   report.drawn = draw(job, canvas, scene, refined, report.stages ? &*report.stages : nullptr,
                       report.quality ? &*report.quality : nullptr, context);
   stop_if_cancelled(context);
-  if (!job.state && (!scene || scene->attach) && (!settle || settle->scene.attach)) {
+  if (!job.state && (settle ? settle->scene.attach : scene ? scene->attach : job.attach)) {
     attach_parts(canvas.file, scene ? scene->material : io::SceneMaterial{},
                  name_of(job.garment, "the garment"), canvas.pins, context);
     bridge::bring_riders_along(canvas.file.mesh);

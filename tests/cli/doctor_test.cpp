@@ -66,6 +66,14 @@ TEST_CASE("doctor: panels 10 um apart are told with count, place and remedy, and
       run_furrow("simulate " + mesh + " --pin-loop top --seconds 0.001 -o " + (scratch / "hung.ply"));
   CHECK_THAT(hung.err, Contains("seams joined that its file leaves open: 6 vertices, up to 0.01 mm"));
   CHECK_THAT(hung.err, Contains("--set garment.join=false leaves them open"));
+  write_text(scratch / "lines.json",
+             R"({"strokes": [{"name": "a", "height": 0.02, "points": [[0.3, 0.5, 0], [0.7, 0.5, 0]]}]})");
+  const std::string draw = "wrinkle " + mesh + " " + (scratch / "lines.json") + " -o " + (scratch / "w.ply");
+  CHECK_THAT(run_furrow(draw).err, Contains("--set garment.join=false leaves them open"));
+  CHECK_THAT(run_furrow(draw + " --set garment.join=false").err, !Contains("seams joined"));
+  const Run mistaken = run_furrow(draw + " --set material.density=1");
+  CHECK(mistaken.exit_code == 2);
+  CHECK_THAT(mistaken.err, Contains("--set material.density: goes with --rest keep or --settle"));
   CHECK(run_furrow("doctor " + mesh + " --repair -o " + mended).exit_code == 0);
   CHECK(examined(mended)["well"] == true);
   CHECK(examined(mended)["components"] == 1);

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/mesh/weld.h"
 #include "jobs/mesh/doctor.h"
 
 #include <CGAL/boost/graph/Euler_operations.h>
@@ -11,6 +10,7 @@
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/measures.h"
 #include "geometry/mesh/sheet.h"
+#include "io/mesh/weld.h"
 #include "jobs/move/simulate.h"
 #include "jobs/rest/drape.h"
 #include "jobs/rest/fit.h"
