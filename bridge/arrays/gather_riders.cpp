@@ -111,7 +111,7 @@ void add_joined(const geometry::Mesh& mesh, std::vector<physics::Rider>& riders)
   std::map<int, physics::Rider> known;
   for (const physics::Rider& rider : riders) known.emplace(rider.particle, rider);
   for (const geometry::Vertex v : mesh.vertices()) {
-    const geometry::Vertex with(geometry::Vertex::size_type((*joined)[v]));
+    const geometry::Vertex with{geometry::Vertex::size_type((*joined)[v])};
     if ((*joined)[v] < 0 || !mesh.is_isolated(v) || !mesh.has_valid_index(with) || mesh.is_isolated(with))
       continue;
     if (const auto rides = known.find(int(with)); rides != known.end()) {

@@ -263,7 +263,7 @@ void close_joined(Mesh& mesh) {
   const auto joined = find_map(mesh, attribute::joined);
   if (!joined) return;
   for (const Vertex v : mesh.vertices())
-    if (const Vertex with(Vertex::size_type((*joined)[v]));
+    if (const Vertex with{Vertex::size_type((*joined)[v])};
         (*joined)[v] >= 0 && mesh.is_isolated(v) && mesh.has_valid_index(with))
       mesh.point(v) = mesh.point(with);
 }

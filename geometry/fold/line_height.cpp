@@ -20,14 +20,14 @@ namespace {
 using Sparse = Eigen::SparseMatrix<double>;
 
 /// The cloth around one line: `free` are the line's vertices and those that its fold moves.
-struct Patch {
+struct HeightPatch {
   std::vector<Vertex> line, free;
   std::vector<int> index;   ///< by vertex: its place in `free`, or -1
   std::vector<Face> faces;  ///< around the free vertices
 };
 
-Patch gather_patch(const Mesh& mesh, std::vector<Vertex> line, const std::vector<Vertex>& free) {
-  Patch patch{std::move(line), {}, std::vector<int>(mesh.num_vertices(), -1), {}};
+HeightPatch gather_patch(const Mesh& mesh, std::vector<Vertex> line, const std::vector<Vertex>& free) {
+  HeightPatch patch{std::move(line), {}, std::vector<int>(mesh.num_vertices(), -1), {}};
   for (Vertex v : free) {
     if (mesh.is_isolated(v)) continue;
     patch.index[v.idx()] = static_cast<int>(patch.free.size());
@@ -41,7 +41,8 @@ Patch gather_patch(const Mesh& mesh, std::vector<Vertex> line, const std::vector
 }
 
 /// Positions of patch.free that solve the Laplace equation; empty where it has no single solution.
-Eigen::MatrixXd harmonic_fill(const Mesh& mesh, const Patch& patch, const std::vector<double>& lengths) {
+Eigen::MatrixXd harmonic_fill(const Mesh& mesh, const HeightPatch& patch,
+                              const std::vector<double>& lengths) {
   const auto n = static_cast<Eigen::Index>(patch.free.size());
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::MatrixXd right = Eigen::MatrixXd::Zero(n, 3);
@@ -78,7 +79,7 @@ Eigen::MatrixXd harmonic_fill(const Mesh& mesh, const Patch& patch, const std::v
 
 /// A fold along a border has its foot on one side alone; the fill then shrinks towards that, and its normals
 /// mean nothing. True where it has less than a quarter of the cloth's area before lines around the line.
-bool has_shrunk(const Mesh& mesh, const Patch& patch, double fill_area) {
+bool has_shrunk(const Mesh& mesh, const HeightPatch& patch, double fill_area) {
   const auto is_border = [&](Vertex v) { return mesh.is_border(v); };
   if (std::none_of(patch.free.begin(), patch.free.end(), is_border)) return false;
   const std::vector<double> lengths = lengths_before_lines(mesh);
@@ -93,7 +94,7 @@ bool has_shrunk(const Mesh& mesh, const Patch& patch, double fill_area) {
 }
 
 /// NaN where the fill is none.
-double mean_height(const Mesh& mesh, const Patch& patch, const Eigen::MatrixXd& fill) {
+double mean_height(const Mesh& mesh, const HeightPatch& patch, const Eigen::MatrixXd& fill) {
   const auto position = [&](Vertex v) {
     const int i = patch.index[v.idx()];
     return i < 0 ? mesh.point(v) : Point(fill(i, 0), fill(i, 1), fill(i, 2));
@@ -140,7 +141,7 @@ std::vector<LineHeight> heights_of(const Mesh& mesh, std::span<const double> wid
     const double width = static_cast<std::size_t>(id) < widths.size() ? widths[id] : unset_value;
     const std::vector<Vertex> free =
         width > 0 ? line_region(mesh, vertices, width, before) : vertices_within_rings(mesh, vertices, 1);
-    const Patch patch = gather_patch(mesh, std::move(vertices), free);
+    const HeightPatch patch = gather_patch(mesh, std::move(vertices), free);
     const Eigen::MatrixXd fill = harmonic_fill(mesh, patch, lengths);
     if (fill.size() > 0) height.height = mean_height(mesh, patch, fill);
     heights.push_back(height);
