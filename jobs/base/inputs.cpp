@@ -100,12 +100,15 @@ io::MeshFile read_file(const std::string& path, const Context& context, Chains c
   return file;
 }
 
-io::MeshFile with_seams_as_one(io::MeshFile read, const std::string& name, const Context& context) {
+/// `may_say`: a setting would leave them open.
+io::MeshFile with_seams_as_one(io::MeshFile read, const std::string& name, bool may_say,
+                               const Context& context) {
   const std::size_t told = read.warnings.size();
   io::MeshFile file = io::with_seams_as_one(std::move(read), name);
   for (std::size_t i = told; i < file.warnings.size(); ++i)
-    context.warn("seams_joined", file.warnings[i] + "; `garment.join=false` leaves them open", name,
-                 "garment.join");
+    context.warn("seams_joined",
+                 file.warnings[i] + (may_say ? "; `garment.join=false` leaves them open" : ""), name,
+                 may_say ? "garment.join" : "`furrow doctor`");
   return file;
 }
 
@@ -132,11 +135,12 @@ io::MeshFile read_mesh(const MeshInput& input, const Context& context, Chains ch
 }
 
 io::MeshFile read_garment(const MeshInput& input, const Context& context, const std::string& what,
-                          Chains chains, bool joins) {
+                          Chains chains, std::optional<bool> joins) {
   io::MeshFile file = read_mesh(input, context, chains);
   if (chains == Chains::refused || !geometry::is_chain(file.mesh))
     require_area(file.mesh, name_of(input, what));
-  if (joins) file = with_seams_as_one(std::move(file), name_of(input, what), context);
+  if (joins.value_or(true))
+    file = with_seams_as_one(std::move(file), name_of(input, what), joins.has_value(), context);
   require_size(file.mesh, name_of(input, what), what, context);
   return file;
 }

@@ -29,10 +29,11 @@ enum class Chains { refused, taken };
 /// memory is copied. Throws as io::read_mesh().
 io::MeshFile read_mesh(const MeshInput& input, const Context& context, Chains chains = Chains::refused);
 
-/// As read_mesh(), with open seams joined (io/mesh/weld.h), which a warning says, unless `joins` is false;
-/// throws geometry::ContentError for a garment, or what else it is, of an odd size or without area (gate.h).
+/// As read_mesh(), with open seams joined (io/mesh/weld.h), which a warning says, unless the scene's `joins`
+/// is false; none: there is no scene. Throws geometry::ContentError for a garment, or what else it is, of an
+/// odd size or without area (gate.h).
 io::MeshFile read_garment(const MeshInput& input, const Context& context, const std::string& what = "garment",
-                          Chains chains = Chains::refused, bool joins = true);
+                          Chains chains = Chains::refused, std::optional<bool> joins = {});
 
 /// Does it; a geometry::ContentError of it then begins with the file's name.
 template <class Work>
