@@ -187,12 +187,14 @@ MeshFile with_seams_as_one(MeshFile file, const std::string& name) {
   if (find_map(file.mesh, attribute::rest_length)) return file;
   const BorderSeams seams = find_border_seams(file.mesh, {.closed = true});
   if (!seams.any()) return file;
+  const std::vector<Vertex> into = joined_vertices(file.mesh, seams);
+  std::size_t count = 0;
+  for (std::size_t v = 0; v < into.size(); ++v) count += into[v].idx() != v;
   MeshFile result = joined(file, name, seams, true);
   result.polylines = std::move(file.polylines);
-  result.warnings.push_back(
-      name + ": seams joined that its file leaves open: " + std::to_string(seams.pairs.size()) +
-      " vertices, up to " + length_text(seams.gap) + " from the other side, and " +
-      std::to_string(seams.splits.size()) + " amid an edge of it");
+  result.warnings.push_back(name + ": seams joined that its file leaves open: " + std::to_string(count) +
+                            " vertices, up to " + length_text(seams.gap) + " from the other side, and " +
+                            std::to_string(seams.splits.size()) + " amid an edge of it");
   return result;
 }
 
