@@ -142,12 +142,12 @@ void take_sets(const WrinkleArguments& a, WrinkleJob& job) {
       if (bool* field = key == "attach" ? &job.attach
                         : key == "join" ? &job.join
                                         : nullptr;
-          field && table == "garment" && value.is_boolean())
+          field && table == "garment" && value.is_boolean() && !job.state)
         *field = value;
       else
-        throw UsageError("--set " + table + "." + key +
+        throw UsageError("--set " + table + (key.empty() ? "" : "." + key) +
                          ": goes with --rest keep or --settle; without them garment.attach and garment.join "
-                         "do, true or false");
+                         "do, true or false, on a mesh");
 }
 
 WrinkleJob job_of(const WrinkleArguments& a) {

@@ -22,7 +22,7 @@ constexpr double beside = 0.3, above = 0.7;  // cosines with the normal: none an
 constexpr double enough = 1e-3;              // of a raise that may be missing
 constexpr int most_passes = 20;
 
-/// Of one mesh at rest: a patch, where it lay, and how far each vertex is raised.
+/// Connected faces that lines raised, where they lay, and how far each vertex is raised.
 struct RaisedPatch {
   Mesh flat;
   std::vector<Vertex> vertices;  ///< of the whole
@@ -67,10 +67,7 @@ class LayerRaiser {
 
   RaisedLayers raise() {
     std::vector<Vector> sum(mesh_.num_vertices(), CGAL::NULL_VECTOR);
-    for (std::vector<Face>& faces : raised_faces()) {
-      const RaisedPatch patch = patch_of(std::move(faces));
-      raise_over(patch, sum);
-    }
+    for (std::vector<Face>& faces : raised_faces()) raise_over(patch_of(std::move(faces)), sum);
     RaisedLayers result;
     for (const Vertex v : mesh_.vertices()) {
       const double length = std::sqrt(sum[v.idx()].squared_length());
@@ -157,7 +154,8 @@ class LayerRaiser {
     return raise;
   }
 
-  /// Adds what the patch raises to the sums of these vertices, and of the corners of faces that span it.
+  /// Adds what the patch raises to the sums of the vertices over it, and of the corners of faces that span
+  /// it.
   void raise_over(const RaisedPatch& patch, std::vector<Vector>& sum) const {
     const SurfaceProjector lower(patch.flat);
     std::vector<Vector> own(mesh_.num_vertices(), CGAL::NULL_VECTOR);

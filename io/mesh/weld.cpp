@@ -125,11 +125,10 @@ void take_diagonals(const Mesh& before, const std::vector<std::size_t>& point, M
 
 /// The file with pairs of vertices joined into the first of them, and faces split; the first `kept` vertices
 /// stay, if without faces.
-MeshFile rebuilt(const MeshFile& file, const std::string& name, const BorderSeams& seams,
-                 std::size_t kept = 0) {
+MeshFile rebuilt(const MeshFile& file, const std::string& name, const std::vector<Vertex>& into,
+                 const BorderSeams& seams, std::size_t kept = 0) {
   PolygonSoup soup;
-  const std::vector<std::size_t> point =
-      take_points(file.mesh, joined_vertices(file.mesh, seams), kept, soup);
+  const std::vector<std::size_t> point = take_points(file.mesh, into, kept, soup);
   take_faces(file.mesh, point, seams.splits, soup);
   MeshFile result = file;
   result.mesh = Mesh();
@@ -142,11 +141,17 @@ MeshFile rebuilt(const MeshFile& file, const std::string& name, const BorderSeam
   return result;
 }
 
+/// The same with vertices that lie at one place joined, too.
+MeshFile rebuilt_at_places(const MeshFile& file, const std::string& name, BorderSeams seams) {
+  seams = at_one_place(file.mesh, std::move(seams));
+  return rebuilt(file, name, joined_vertices(file.mesh, seams), seams);
+}
+
 /// The file as it was read, with these seams joined.
-MeshFile joined(const MeshFile& file, const std::string& name, const BorderSeams& seams, bool keeps) {
+MeshFile joined(const MeshFile& file, const std::string& name, const std::vector<Vertex>& into,
+                const BorderSeams& seams, bool keeps) {
   const std::size_t own = file.mesh->num_vertices() - file.repairs.duplicated_vertices;
-  const std::vector<Vertex> into = joined_vertices(file.mesh, seams);
-  MeshFile result = rebuilt(file, name, seams, keeps ? own : 0);
+  MeshFile result = rebuilt(file, name, into, seams, keeps ? own : 0);
   std::size_t doubled = result.repairs.duplicated_vertices, merged = result.repairs.merged_vertices;
   for (std::size_t v = own; v < into.size(); ++v) doubled += into[v].idx() == v;  // these are still the last
   result.repairs = file.repairs;
@@ -164,10 +169,10 @@ MeshFile joined(const MeshFile& file, const std::string& name, const BorderSeams
 
 MeshFile welded(const MeshFile& file, const std::string& name) {
   require_triangles(file.mesh, "weld");
-  MeshFile result = rebuilt(file, name, at_one_place(file.mesh, {}));
+  MeshFile result = rebuilt_at_places(file, name, {});
   const BorderSeams seams = find_border_seams(result.mesh);
   if (!seams.any()) return result;
-  result = rebuilt(result, name, at_one_place(result.mesh, seams));
+  result = rebuilt_at_places(result, name, seams);
   result.repairs.merged_vertices = file.mesh->number_of_vertices() + result.repairs.duplicated_vertices -
                                    result.mesh->number_of_vertices();
   return result;
@@ -176,7 +181,7 @@ MeshFile welded(const MeshFile& file, const std::string& name) {
 MeshFile with_joined_seams(MeshFile file, const std::string& name) {
   const BorderSeams seams = find_border_seams(file.mesh, {.within_groups = true, .split = false});
   if (!seams.any()) return file;
-  MeshFile result = joined(file, name, seams, false);
+  MeshFile result = joined(file, name, joined_vertices(file.mesh, seams), seams, false);
   result.warnings.push_back(
       name + ": seams joined that lay open by a rounding: " + std::to_string(seams.apart.size()) +
       " vertices, up to " + length_text(seams.gap) + " apart");
@@ -190,7 +195,7 @@ MeshFile with_seams_as_one(MeshFile file, const std::string& name) {
   const std::vector<Vertex> into = joined_vertices(file.mesh, seams);
   std::size_t count = 0;
   for (std::size_t v = 0; v < into.size(); ++v) count += into[v].idx() != v;
-  MeshFile result = joined(file, name, seams, true);
+  MeshFile result = joined(file, name, into, seams, true);
   result.polylines = std::move(file.polylines);
   result.warnings.push_back(name + ": seams joined that its file leaves open: " + std::to_string(count) +
                             " vertices, up to " + length_text(seams.gap) + " from the other side, and " +

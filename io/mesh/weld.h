@@ -10,7 +10,8 @@ namespace furrow::io {
 /// read from a file: faces that come to be twice there are dropped, neighbours wound alike, what is not
 /// manifold parted (`repairs`). Vertices and faces keep their order; colours and vertex attributes are those
 /// of the first vertex; texture, groups and materials stay; what edges and triangles had (rest lengths,
-/// struts) is left out. Throws geometry::ContentError if a face is no triangle or none is left. O(F log F).
+/// struts) is left out, but for the diagonals of quads. Throws geometry::ContentError if a face is no
+/// triangle or none is left. O(F log F).
 MeshFile welded(const MeshFile& file, const std::string& name);
 
 /// The file as it was read, with the open seams within its groups joined, without splits, and a warning that

@@ -127,7 +127,8 @@ struct Canvas {
   std::vector<std::vector<int>> pins;
 };
 
-Canvas canvas_of(const WrinkleJob& job, const io::Scene* keep, const Context& context) {
+Canvas canvas_of(const WrinkleJob& job, const io::Scene* keep, const io::Scene* rest,
+                 const Context& context) {
   Canvas canvas;
   if (job.state) {
     canvas.state = job.state;
@@ -135,7 +136,7 @@ Canvas canvas_of(const WrinkleJob& job, const io::Scene* keep, const Context& co
     refuse_chain(canvas.file.mesh, job.state_path.string());
     canvas.pins = canvas.state->pins;
   } else {
-    const bool joins = job.settle ? rest_scene(job, context.frame).join : keep ? keep->join : job.join;
+    const bool joins = rest ? rest->join : keep ? keep->join : job.join;
     canvas.file = read_garment(job.garment, context, "garment", Chains::refused, joins);
     const SeamTies ties = all_ties(canvas.file, name_of(job.garment, "the garment"), context);
     if (!ties.empty()) set_seam_ties(canvas.file.mesh, ties, keep ? keep->material : io::SceneMaterial{});
@@ -248,8 +249,9 @@ struct RestPlan {
 
 /// Refines a garment whose edges are too long to keep the gap: once its folds are drawn, that would round
 /// them.
-RestPlan plan_rest(const WrinkleJob& job, geometry::Mesh& garment, const Context& context) {
-  RestPlan plan{rest_scene(job, context.frame), {}, job.subdivide.value_or(0)};
+RestPlan plan_rest(const WrinkleJob& job, const io::Scene& scene, geometry::Mesh& garment,
+                   const Context& context) {
+  RestPlan plan{scene, {}, job.subdivide.value_or(0)};
   if (plan.scene.body) {
     plan.body.emplace(load_body(*plan.scene.body, {context.frame, context.listener, &job.settle->memory},
                                 tolerance_for(plan.scene.simulation.contact_gap)));
@@ -303,9 +305,11 @@ WrinkleReport draw_and_settle(const WrinkleJob& job, Budget& budget) {
   std::optional<io::Scene> keep;
   if (job.keep) keep = scene_of(job.keep->settings, job.keep->folder);
   const io::Scene* scene = keep ? &*keep : nullptr;
-  Canvas canvas = canvas_of(job, scene, context);
+  std::optional<io::Scene> rest;
+  if (job.settle) rest = rest_scene(job, context.frame);
+  Canvas canvas = canvas_of(job, scene, rest ? &*rest : nullptr, context);
   std::optional<RestPlan> settle;
-  if (job.settle) settle = plan_rest(job, canvas.file.mesh, context);
+  if (rest) settle = plan_rest(job, *rest, canvas.file.mesh, context);
   stop_if_cancelled(context);
   const bool refined = settle && settle->refinements > 0;
   const auto crossed = job.crossed && !refined

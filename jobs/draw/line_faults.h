@@ -10,8 +10,8 @@ namespace furrow::jobs {
 
 /// Lines that raised one layer of cloth through another: pairs of faces that cross, neither of which would
 /// cross any if the lines had no height, and that no short way along the cloth joins, so that they do not
-/// gather in one bend. None:
-/// they did not. `now`: of the mesh. About the cost of two measure_crossings(), where there are new ones.
+/// gather in one bend. None: they did not. `now`: of the mesh. About the cost of two measure_crossings(),
+/// where there are new ones.
 std::optional<Warning> layers_crossed(const geometry::Mesh& mesh, const geometry::WrinkleReport& lines,
                                       const ClothCrossings& now);
 

@@ -94,6 +94,7 @@ void find_neighbours(PairMesh& mesh) {
     for (const int v : mesh.triangles[t]) mesh.around[std::size_t(next[std::size_t(v)]++)] = int(t);
 }
 
+/// Which vertices springs without length hold together.
 void find_knots(PairMesh& mesh, const Cloth& cloth) {
   std::vector<int>& knot = mesh.knot;
   knot.resize(cloth.particles.size());

@@ -71,6 +71,7 @@ TEST_CASE("doctor: panels 10 um apart are told with count, place and remedy, and
   const std::string draw = "wrinkle " + mesh + " " + (scratch / "lines.json") + " -o " + (scratch / "w.ply");
   CHECK_THAT(run_furrow(draw).err, Contains("--set garment.join=false leaves them open"));
   CHECK_THAT(run_furrow(draw + " --set garment.join=false").err, !Contains("seams joined"));
+  CHECK_THAT(run_furrow(draw + " --set unit=cm").err, Contains("--set unit: goes with"));
   const Run mistaken = run_furrow(draw + " --set material.density=1");
   CHECK(mistaken.exit_code == 2);
   CHECK_THAT(mistaken.err, Contains("--set material.density: goes with --rest keep or --settle"));

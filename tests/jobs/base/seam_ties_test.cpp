@@ -90,6 +90,16 @@ TEST_CASE("open_seams: panels are one garment, with every vertex, unless the sce
   CHECK(file.mesh->number_of_vertices() == 8);
   CHECK(recorder.warned_of("seams_joined") == scene.join);
   CHECK(recorder.warned_of("unjoined") == !scene.join);
+  // In motion it goes with the other one.
+  jobs::SimulateJob move;
+  move.scene.settings = io::parse_toml(
+      "[garment]\nmesh = \"panels.obj\"\n[[pins]]\nvertices = [0, 3]\n[simulation]\nseconds = 0.05\n",
+      "test");
+  move.scene.folder = folder;
+  io::set_value(move.scene.settings, "garment.join", scene.join, "test");
+  const geometry::Mesh moved = jobs::simulate(move, recorder).garment.mesh;
+  CHECK((moved.point(geometry::Vertex(4)).y() < -0.01) == !scene.join);  // else its panel falls
+  CHECK((moved.point(geometry::Vertex(4)) == moved.point(geometry::Vertex(1))) == scene.join);
   // Pins that name a vertex that is one with another hold that one.
   io::ScenePins pins;
   pins.vertices = {4, 1};

@@ -34,6 +34,20 @@ TEST_CASE("pair_mesh: cloth is as thick as was asked, less where a triangle is t
   CHECK_THROWS_AS(pair_mesh(cloth, 0.1), std::invalid_argument);
 }
 
+TEST_CASE("pair_mesh: what springs without length join is one vertex to contact, through others, too") {
+  Cloth cloth = rough_sheet(4, 0, 1);
+  const PairMesh plain = pair_mesh(cloth, 0.001);
+  for (std::size_t v = 0; v < plain.knot.size(); ++v) CHECK(plain.knot[v] == int(v));
+  CHECK_FALSE(are_neighbours(plain, std::array{0}, std::array{9, 12}));
+  cloth.bending = {{3, 7, 1e-9, 10}, {7, 12, 1e-9, 10}, {0, 24, 2e-9, 10}};
+  const PairMesh tied = pair_mesh(cloth, 0.001);
+  CHECK(tied.knot[12] == 3);
+  CHECK(tied.knot[7] == 3);
+  CHECK(tied.knot[24] == 24);
+  CHECK(are_neighbours(tied, std::array{3}, std::array{9, 12}));
+  CHECK_FALSE(are_neighbours(tied, std::array{0}, std::array{9, 24}));
+}
+
 TEST_CASE("pair_mesh: structural springs tell the lengths at rest where there is no membrane") {
   Cloth cloth = rough_sheet(4, 0, 1);
   cloth.membrane.clear();
