@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/mesh/transfer.h"
 
+#include <CGAL/squared_distance_3.h>
+
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "geometry/figure/border_seams.h"
 #include "geometry/mesh/errors.h"
+#include "geometry/mesh/measures.h"
 #include "geometry/mesh/property_names.h"
 #include "io/base/atomic_file.h"
 #include "io/base/bytes_file.h"
@@ -75,8 +80,32 @@ std::optional<std::string> text_as_read(const TransferJob& job, const io::MeshFi
   return text.compare(first, mark.size(), mark) == 0 ? text : std::string(text).insert(first, mark);
 }
 
+/// Where vertices lie amid an edge of their seam, an OBJ that keeps its faces shows slits once they have
+/// moved.
+void warn_of_slits(const TransferJob& job, const geometry::Mesh& moved, const Context& context) {
+  SilentListener silent(context.listener);
+  const geometry::Mesh in_file = read_mesh(job.original, {context.frame, silent}).mesh;
+  const geometry::BorderSeams seams = geometry::find_border_seams(in_file);
+  const std::vector<geometry::Vertex> own = geometry::joined_vertices(in_file, seams);
+  double widest = 0;
+  for (const geometry::SeamSplit& split : seams.splits) {
+    const auto at = [&](geometry::Vertex v) { return moved.point(own[v.idx()]); };
+    const geometry::Point a = at(in_file.source(split.border)), b = at(in_file.target(split.border));
+    widest = std::max(widest, std::sqrt(CGAL::squared_distance(a + split.t * (b - a), at(split.at))));
+  }
+  if (widest > 1e-4)
+    context.warn(
+        "slits",
+        job.output.string() + ": " + std::to_string(seams.splits.size()) +
+            " vertices amid an edge of their seam come off it by up to " + geometry::length_text(widest) +
+            ", as the file keeps its faces; mend the original first (`furrow doctor repair`), or write "
+            "a .ply",
+        job.output.string(), "`furrow doctor repair`");
+}
+
 void write(const TransferJob& job, const TransferReport& report, const Context& context) {
   if (job.output == "-" || job.output.empty()) return;
+  if (report.obj_text) warn_of_slits(job, report.result.mesh, context);
   if (report.obj_text)
     return io::write_atomically(job.output, [&](std::ostream& out) { out << *report.obj_text; });
   if (const std::size_t cut = report.result.repairs.triangulated_faces)

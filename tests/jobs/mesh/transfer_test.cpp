@@ -92,6 +92,7 @@ TEST_CASE("transfer: a seam with vertices amid its edges holds in every job, and
   CHECK(report.moved.copied == 7);
   CHECK(report.moved.interpolated == 0);
   CHECK(tests::bytes_of(folder / "ridged.obj").find(faces) != std::string::npos);
+  CHECK(recorder.warned_of("slits"));  // the fold bends the seam, and the file's faces are not split there
 }
 
 TEST_CASE("transfer: polygons stay whole from OBJ to OBJ, and are warned of elsewhere") {
@@ -110,6 +111,7 @@ TEST_CASE("transfer: polygons stay whole from OBJ to OBJ, and are warned of else
   CHECK(report.obj_text->find("# drawn by hand") != std::string::npos);
   CHECK(report.obj_text->find("f 1 2 3 4") != std::string::npos);
   CHECK_FALSE(recorder.warned_of("polygons_cut"));
+  CHECK_FALSE(recorder.warned_of("slits"));
   job.output = folder / "moved.ply";
   CHECK_FALSE(jobs::transfer(job, recorder).obj_text);
   CHECK(recorder.warned_of("polygons_cut"));
