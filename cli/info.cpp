@@ -60,6 +60,17 @@ std::string size_of_box(const Json& report) {
   return "size: " + size + " (width, height, depth)";
 }
 
+/// "parts: 'shirt'; 'pocket', lies on another".
+std::string parts_of(const Json& report) {
+  constexpr std::size_t most = 8;
+  const Json& parts = list_of(report, "parts");
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most, parts.size()); ++i)
+    text += (i ? "; " : "parts: ") + parts[i].value("name", "") +
+            (parts[i].value("goes", "") == "by itself" ? "" : ", lies on another");
+  return text + (parts.size() > most ? " and " + std::to_string(parts.size() - most) + " more" : "");
+}
+
 Lines info_lines(const Json& report) {
   Lines lines;
   if (const Json& chain = table_of(report, "chain"); !chain.empty())
@@ -83,6 +94,7 @@ Lines info_lines(const Json& report) {
     if (borders.size() > 5) text += " and " + std::to_string(borders.size() - 5) + " more";
     lines.push_back("borders: " + text + " long");
   }
+  if (const std::string parts = parts_of(report); !parts.empty()) lines.push_back(parts);
   std::string carries;
   for (const char* key : {"groups", "materials", "lines"})
     if (const Json& list = list_of(report, key); !list.empty())

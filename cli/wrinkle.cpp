@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <set>
 
 #include "cli/camera_options.h"
 #include "cli/card_options.h"
@@ -135,19 +136,19 @@ SceneInput surroundings(const WrinkleArguments& a, const WrinkleJob& job) {
 
 /// What else than lines a drawing that neither is kept nor rests is told of its garment.
 void take_sets(const WrinkleArguments& a, WrinkleJob& job) {
+  const std::set<std::string> known{"attach", "attach_parts", "free_parts", "join"};
   io::TomlDocument document;
   a.flags.apply(document);
+  if (document.root->empty()) return;
   for (const auto& [table, values] : document.root->items())
     for (const auto& [key, value] : values.items())
-      if (bool* field = key == "attach" ? &job.attach
-                        : key == "join" ? &job.join
-                                        : nullptr;
-          field && table == "garment" && value.is_boolean() && !job.state)
-        *field = value;
-      else
+      if (table != "garment" || !known.contains(key) || job.state)
         throw UsageError("--set " + table + (key.empty() ? "" : "." + key) +
-                         ": goes with --rest keep or --settle; without them garment.attach and garment.join "
-                         "do, true or false, on a mesh");
+                         ": goes with --rest keep or --settle; without them garment.attach, attach_parts, "
+                         "free_parts and join do, on a mesh");
+  const io::Scene scene = jobs::scene_of(document, "");
+  job.attach = scene.attach;
+  job.join = scene.join;
 }
 
 WrinkleJob job_of(const WrinkleArguments& a) {

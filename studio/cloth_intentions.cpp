@@ -212,6 +212,18 @@ Json Session::pin(const Json& body) {
   return Json::object();
 }
 
+Json Session::attach(const Json& body) {
+  const std::size_t part = index_of(body, "part", parts_of_sketch_.size());
+  const bool on = wanted(body);
+  Json drawing = project_->now().drawing;
+  const std::string& name = parts_of_sketch_[part].name;
+  Json& garment = drawing["settings"]["garment"];
+  garment = jobs::with_part(garment, name, on);
+  drawing.erase("motion");  // which began with other cloth
+  change((on ? "attach " : "free ") + name, std::move(drawing));
+  return Json::object();
+}
+
 void Session::take_result(const std::string& word, const std::string& what, const io::MeshFile& file,
                           Json motion) {
   Json drawing = project_->now().drawing;

@@ -24,6 +24,12 @@ Json rows_of_borders(const jobs::Sketch& sketch) {
   return rows;
 }
 
+Json rows_of_parts(const std::vector<jobs::SketchPart>& parts) {
+  Json rows = Json::array();
+  for (const jobs::SketchPart& part : parts) rows.push_back({{"name", part.name}, {"goes", part.goes}});
+  return rows;
+}
+
 Json rows_of_fabrics() {
   Json rows = Json::array();
   for (const jobs::FabricChoice& fabric : jobs::fabric_choices())
@@ -45,6 +51,7 @@ const std::map<std::string, Session::Does>& Session::intentions() {
                                                {"wind", &Session::blow},
                                                {"hold", &Session::hold},
                                                {"pin", &Session::pin},
+                                               {"attach", &Session::attach},
                                                {"drape", &Session::drape},
                                                {"keep", &Session::keep},
                                                {"play", &Session::play},
@@ -91,6 +98,7 @@ void Session::progress(const std::string& what, double share) {
 struct Session::Prepared {
   std::optional<jobs::Sketch> sketch;  ///< none: the present one stays
   double middle = 0;
+  std::vector<jobs::SketchPart> parts;
   Bytes body, cloth;
 };
 
@@ -99,6 +107,7 @@ Session::Prepared Session::prepare(const Json& drawing, std::optional<std::strin
   if (!cloth_ || drawing.at("settings") != project_->now().drawing.at("settings")) {
     made.sketch = open_drawing(drawing, project_->folder(), *this);
     made.middle = jobs::middle_of(*made.sketch);
+    made.parts = jobs::loose_parts_of(*made.sketch);
     if (made.sketch->body)
       made.body = shared(frame_bytes(ShownAs::body, jobs::shown_mesh(made.sketch->body->mesh)));
     if (made.body && body_ && *body_ == *made.body) made.body = body_;
@@ -117,6 +126,7 @@ void Session::take(Prepared made) noexcept {
   if (made.sketch) {
     sketch_ = std::move(*made.sketch);
     middle_of_sketch_ = made.middle;
+    parts_of_sketch_ = std::move(made.parts);
     body_ = std::move(made.body);
   }
   cloth_ = std::move(made.cloth);
@@ -190,6 +200,7 @@ Json Session::status() const {
           {"fabric", settings.value("material", Json::object()).value("preset", "")},
           {"fabrics", rows_of_fabrics()},
           {"borders", rows_of_borders(sketch_)},
+          {"parts", rows_of_parts(parts_of_sketch_)},
           {"wind", wind},
           {"middle", middle()},
           {"has_body", body_ != nullptr},

@@ -10,6 +10,7 @@
 
 #include "jobs/sketch/play_sketch.h"
 #include "jobs/sketch/sketch.h"
+#include "jobs/sketch/sketch_parts.h"
 #include "studio/message.h"
 #include "studio/outbox.h"
 #include "studio/project.h"
@@ -75,6 +76,7 @@ class Session : jobs::Listener {
   Json blow(const Json& body);
   Json hold(const Json& body);
   Json pin(const Json& body);
+  Json attach(const Json& body);
   Json drape(const Json& body);
   Json keep(const Json& body);
   Json play(const Json& body);
@@ -122,6 +124,7 @@ class Session : jobs::Listener {
   std::optional<Project> project_;
   jobs::Sketch sketch_;
   double middle_of_sketch_ = 0;  ///< jobs::middle_of() it [m]
+  std::vector<jobs::SketchPart> parts_of_sketch_;
   std::atomic<bool> cancelled_ = false;
   bool playing_ = false;           ///< until somebody stops it: it may take as long as it likes
   Json did_;                       ///< the intention that is being done, as the log will have it

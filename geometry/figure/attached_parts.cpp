@@ -36,8 +36,9 @@ struct Box : CGAL::Box_intersection_d::Box_d<double, 3> {
 
 class Finder {
  public:
-  Finder(const Mesh& mesh, const Parts& parts)
-      : mesh_(mesh), parts_(parts), at_(places_as_made(mesh)), boxes_(parts.list.size()) {
+  Finder(const Mesh& mesh, const Parts& parts, const std::vector<Ride>& chosen)
+      : mesh_(mesh), parts_(parts), chosen_(chosen), at_(places_as_made(mesh)), boxes_(parts.list.size()) {
+    chosen_.resize(parts.list.size(), Ride::none);
     for (const Vertex v : mesh.vertices())
       if (const int part = parts_.of_vertex[v.idx()]; part >= 0)
         boxes_[std::size_t(part)] += at_[v.idx()].bbox();
@@ -50,11 +51,12 @@ class Finder {
     std::vector<AttachedPart> found;
     std::vector<char> rides(parts_.list.size(), 0);
     const std::vector<char> nothing = rides;
-    for (std::size_t part = 1; part < rides.size(); ++part) {
-      AttachedPart one = judge(int(part), rides, true);
-      if (one.ride == Ride::none) one = judge(int(part), nothing, false);
+    for (std::size_t part = 0; part < rides.size(); ++part) {
+      AttachedPart one = as_chosen(int(part));
+      if (one.ride == Ride::none && part > 0) one = judge(int(part), rides, true);
+      if (one.ride == Ride::none && part > 0) one = judge(int(part), nothing, false);
       if (one.ride == Ride::none) continue;
-      rides[part] = 1;
+      rides[part] = one.ride != Ride::by_itself;
       found.push_back(one);
     }
     return found;
@@ -66,6 +68,10 @@ class Finder {
     return std::hypot(b.xmax() - b.xmin(), b.ymax() - b.ymin(), b.zmax() - b.zmin());
   }
   bool is_small(int part) const { return size(part) <= small_size; }
+  AttachedPart as_chosen(int part) const {
+    const Ride ride = chosen_[std::size_t(part)];
+    return {part, ride == Ride::by_place && is_small(part) ? Ride::rigid : ride, never};
+  }
   double reach_of(int part) const { return is_small(part) ? small_reach : reach; }
   /// A stiff part has one place: that of its vertex nearest to the middle of its box.
   bool is_looked_at(Vertex v) const {
@@ -180,6 +186,7 @@ class Finder {
 
   const Mesh& mesh_;
   const Parts& parts_;
+  std::vector<Ride> chosen_;  ///< by part
   std::vector<Point> at_;
   std::vector<CGAL::Bbox_3> boxes_;  ///< by part
   std::vector<Vertex> amid_;         ///< by part
@@ -199,8 +206,9 @@ std::vector<Point> places_as_made(const Mesh& mesh) {
   return places;
 }
 
-std::vector<AttachedPart> find_attached(const Mesh& mesh, const Parts& parts) {
-  return parts.list.size() < 2 ? std::vector<AttachedPart>{} : Finder(mesh, parts).find();
+std::vector<AttachedPart> find_attached(const Mesh& mesh, const Parts& parts,
+                                        const std::vector<Ride>& chosen) {
+  return parts.list.size() < 2 ? std::vector<AttachedPart>{} : Finder(mesh, parts, chosen).find();
 }
 
 void set_rides(Mesh& mesh, const Parts& parts, const std::vector<AttachedPart>& attached) {
@@ -228,7 +236,8 @@ std::vector<Ride> rides_of(const Mesh& mesh) {
   const auto map = find_map(mesh, attribute::rides);
   if (!map) return {};
   std::vector<Ride> rides(mesh.num_faces(), Ride::none);
-  for (const Face f : mesh.faces()) rides[f.idx()] = Ride((*map)[f]);
+  for (const Face f : mesh.faces())
+    if ((*map)[f] != int(Ride::by_itself)) rides[f.idx()] = Ride((*map)[f]);
   return rides;
 }
 

@@ -12,6 +12,7 @@
 
 #include "geometry/figure/attached_parts.h"
 #include "geometry/mesh/parts.h"
+#include "geometry/mesh/property_names.h"
 #include "geometry/mesh/struts.h"
 
 namespace furrow::geometry {
@@ -41,7 +42,10 @@ struct EndNear {
 class EndFinder {
  public:
   explicit EndFinder(const Mesh& mesh)
-      : mesh_(mesh), parts_(find_parts(mesh)), at_(places_as_made(mesh)), rides_(rides_of(mesh)) {}
+      : mesh_(mesh),
+        parts_(find_parts(mesh)),
+        at_(places_as_made(mesh)),
+        rides_(find_map(mesh, attribute::rides)) {}
 
   std::vector<EndOnCloth> find() {
     look();
@@ -63,7 +67,7 @@ class EndFinder {
  private:
   using NearFaces = std::multimap<Vertex, Face>;
 
-  bool is_cloth(Face f) const { return rides_.empty() || rides_[f.idx()] == Ride::none; }
+  bool may_be_tied(Face f) const { return !rides_ || (*rides_)[f] == int(Ride::none); }
   Face own_face(Vertex v) const { return mesh_.face(mesh_.opposite(border_at(v))); }
   Halfedge border_at(Vertex v) const {
     for (const Halfedge h : mesh_.halfedges_around_target(mesh_.halfedge(v)))
@@ -92,14 +96,15 @@ class EndFinder {
     const std::set<Vertex> held = held_by_struts();
     std::vector<EndBox> ends, faces;
     for (const Vertex v : mesh_.vertices()) {
-      if (mesh_.is_isolated(v) || !mesh_.is_border(v) || held.contains(v) || !is_cloth(own_face(v))) continue;
+      if (mesh_.is_isolated(v) || !mesh_.is_border(v) || held.contains(v) || !may_be_tied(own_face(v)))
+        continue;
       const Point& p = at_[v.idx()];
       ends.emplace_back(CGAL::Bbox_3(p.x() - end_reach, p.y() - end_reach, p.z() - end_reach,
                                      p.x() + end_reach, p.y() + end_reach, p.z() + end_reach),
                         v.idx());
     }
     for (const Face f : mesh_.faces())
-      if (is_cloth(f) && !triangle(f).is_degenerate()) faces.emplace_back(triangle(f).bbox(), f.idx());
+      if (may_be_tied(f) && !triangle(f).is_degenerate()) faces.emplace_back(triangle(f).bbox(), f.idx());
     CGAL::box_intersection_d(ends.begin(), ends.end(), faces.begin(), faces.end(),
                              [&](const EndBox& v, const EndBox& f) {
                                note(Vertex(Vertex::size_type(v.index)), Face(Face::size_type(f.index)));
@@ -229,7 +234,7 @@ class EndFinder {
   const Mesh& mesh_;
   const Parts parts_;
   const std::vector<Point> at_;
-  const std::vector<Ride> rides_;
+  const std::optional<Map<Face, int>> rides_;
   NearFaces near_;
   std::map<Vertex, EndNear> found_;
 };

@@ -19,8 +19,8 @@ struct EndOnCloth {
 /// open on purpose, unless the borders turn away from each other at both ends. That face belongs to the same
 /// part, faces as the vertex's does and lies more than 100 mm away along the cloth; or to a part of at least
 /// four times the area, faces either way. Three in a row are needed. Places are those of
-/// attribute::rest_position where that is known. What rides (attached_parts.h) and what a strut holds is
-/// none. Ascending by vertex. Cost: O(faces log faces), and what lies within 100 mm of each that cloth is
+/// attribute::rest_position where that is known. What rides or was chosen to go by itself (attached_parts.h),
+/// and what a strut holds, is none. Ascending by vertex. Cost: O(faces log faces), and what lies within 100 mm of each that cloth is
 /// near to. Throws as find_parts().
 std::vector<EndOnCloth> find_ends_on_cloth(const Mesh& mesh);
 

@@ -114,15 +114,21 @@ struct SceneOutput {
   std::optional<double> checkpoint;  ///< clock time between two states on the way [s]; > 0; none: no such
 };
 
+/// Which parts of a garment go with other cloth that they lie on (jobs/cloth/attach_parts.h).
+struct SceneAttach {
+  bool on = true;                        ///< those do that are found to; false: none, and no end is tied
+  std::vector<std::string> parts, free;  ///< these do in any case; these do not (jobs/base/part_names.h)
+};
+
 /// All that a simulation is made of; what a scene file, flags and a saved state say. Paths are as the program
 /// can open them; SI units; y up.
 struct Scene {
   std::string title;
   std::filesystem::path garment;
-  int layer = -1;      ///< of several garments, from the inside to the outside; -1: by their place
-  bool touch = true;   ///< of several garments, whether it touches the others
-  bool attach = true;  ///< parts that lie on other cloth ride on it (jobs/cloth/attach_parts.h)
-  bool join = true;    ///< seams that the garment's file leaves open are one (io/mesh/weld.h)
+  int layer = -1;     ///< of several garments, from the inside to the outside; -1: by their place
+  bool touch = true;  ///< of several garments, whether it touches the others
+  SceneAttach attach = {};
+  bool join = true;                   ///< seams that the garment's file leaves open are one (io/mesh/weld.h)
   std::optional<double> thickness;    ///< of the cloth, where layers and folds are kept apart [m]; none: 1 mm
   int subdivide = 0;                  ///< times that Loop subdivision is applied before the first line
   int allow_crossings = 0;            ///< pairs of faces that may cross at the end; >= 0

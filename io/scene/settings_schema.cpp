@@ -375,7 +375,14 @@ const Row<Scene> rows[] = {
       .keyword = "",
       .what = "`false`: what lies on other cloth (buttons, pockets, inner sides, ends of straps) is not held "
               "to it"},
-     yes_no(FIELD(attach), false, true)},
+     yes_no(FIELD(attach.on), false, true)},
+    {{.path = "garment.attach_parts",
+      .keyword = "",
+      .what = "parts that go with the cloth nearest to them, however far off: names of groups, or `part 2` "
+              "(`furrow info`)"},
+     plain(FIELD(attach.parts), Kind::list, "text, or texts")},
+    {{.path = "garment.free_parts", .keyword = "", .what = "parts that do not, whatever they lie on"},
+     plain(FIELD(attach.free), Kind::list, "text, or texts")},
     {{.path = "garment.join", .keyword = "", .what = "`false`: seams that the file leaves open stay open"},
      yes_no(FIELD(join), false, true)},
     {{.path = "garment.allow_crossings",

@@ -12,6 +12,7 @@
 #include "geometry/mesh/self_intersections.h"
 #include "geometry/mesh/vertex_attributes.h"
 #include "geometry/refine/subdivide.h"
+#include "jobs/base/part_names.h"
 
 namespace furrow::jobs {
 namespace {
@@ -89,18 +90,6 @@ ClothCrossings measure_crossings(const io::MeshFile& file, const CrossedStart* s
                              p.from_start,
                              {name_of_part(file, parts, p.parts[0]), name_of_part(file, parts, p.parts[1])}});
   return result;
-}
-
-std::string name_of_part(const io::MeshFile& file, const geometry::Parts& parts, int part) {
-  if (parts.list.size() < 2) return "the garment";
-  const geometry::Part& of = parts.list[std::size_t(part)];
-  const std::string plain = fmt::format("part {} ({} vertices)", part + 1, of.vertices);
-  const auto group = geometry::find_map(file.mesh, geometry::attribute::group);
-  const int name = group ? (*group)[of.first] : -1;
-  if (name < 0 || std::size_t(name) >= file.group_names.size()) return plain;
-  for (geometry::Face f : file.mesh->faces())
-    if (((*group)[f] == name) != (parts.of_face[f.idx()] == part)) return plain;
-  return "'" + file.group_names[std::size_t(name)] + "'";
 }
 
 std::string words(const ClothCrossings& c) {

@@ -17,8 +17,4 @@ CrossedStart crossed_start(const geometry::Mesh& mesh, int refinements = 0);
 ClothCrossings measure_crossings(const io::MeshFile& file, const CrossedStart* start = nullptr,
                                  geometry::CrossingMemory* memory = nullptr);
 
-/// What a part is called: the group that its faces alone belong to ("'button'"), else "part 2 (12 vertices)";
-/// of a garment in one piece "the garment".
-std::string name_of_part(const io::MeshFile& file, const geometry::Parts& parts, int part);
-
 }  // namespace furrow::jobs

@@ -320,8 +320,9 @@ WrinkleReport draw_and_settle(const WrinkleJob& job, Budget& budget) {
   report.drawn = draw(job, canvas, scene, refined, report.stages ? &*report.stages : nullptr,
                       report.quality ? &*report.quality : nullptr, context);
   stop_if_cancelled(context);
-  if (!job.state && (settle ? settle->scene.attach : scene ? scene->attach : job.attach)) {
-    attach_parts(canvas.file, scene ? scene->material : io::SceneMaterial{},
+  const io::SceneAttach& attach = settle ? settle->scene.attach : scene ? scene->attach : job.attach;
+  if (!job.state) {
+    attach_parts(canvas.file, attach, scene ? scene->material : io::SceneMaterial{},
                  name_of(job.garment, "the garment"), canvas.pins, context);
     bridge::bring_riders_along(canvas.file.mesh);
   }

@@ -44,9 +44,10 @@ struct WrinkleJob {
   /// With settle: lines are held as drawn, as far as cloth can (jobs/chain/hold_drawn.h); false: by the rest
   /// state of options.rest alone. Cloth that bends by cross springs has nothing to hold them by.
   bool hold = true;
-  /// Without keep and settle, whose scenes say so: parts that lie on other cloth go with it, and seams that
-  /// the file leaves open are one (io::Scene::attach, join).
-  bool attach = true, join = true;
+  /// Without keep and settle, whose scenes say so: which parts go with other cloth, and whether seams that
+  /// the file leaves open are one (io::Scene).
+  io::SceneAttach attach = {};
+  bool join = true;
   /// With settle: body that the garment lies about, from which it is brought to that of these settings, as
   /// drawn; empty: it lies about that one.
   std::filesystem::path made_for = {};

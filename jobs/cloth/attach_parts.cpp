@@ -4,41 +4,106 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
 
 #include "geometry/figure/attached_parts.h"
 #include "geometry/figure/ends_on_cloth.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/struts.h"
-#include "jobs/base/measure_crossings.h"
+#include "jobs/base/part_names.h"
 #include "jobs/base/seam_ties.h"
 
 namespace furrow::jobs {
 
 namespace {
 
-void let_ride(io::MeshFile& file, const std::string& name, const std::vector<std::vector<int>>& pins,
-              const Context& context) {
-  geometry::Mesh& mesh = file.mesh;
-  if (geometry::find_map(mesh, geometry::attribute::rides)) return geometry::free_drawn_parts(mesh);
-  const geometry::Parts parts = geometry::find_parts(mesh);
-  std::vector<geometry::AttachedPart> attached = geometry::find_attached(mesh, parts);
+using geometry::Ride;
+
+bool names_any(const io::SceneAttach& attach) { return !attach.parts.empty() || !attach.free.empty(); }
+
+/// The parts of that name, of which there is one at least.
+std::vector<int> require_parts(const io::MeshFile& file, const geometry::Parts& parts, const char* setting,
+                               const std::string& name) {
+  std::vector<int> called = parts_called(file, parts, name);
+  if (!called.empty()) return called;
+  constexpr std::size_t most = 12;
+  std::string all;
+  for (std::size_t part = 0; part < std::min(most, parts.list.size()); ++part)
+    all += (part ? ", " : "") + name_of_part(file, parts, int(part));
+  throw std::invalid_argument(std::string(setting) + ": no part of the garment is called '" + name +
+                              "'; it has " + all + (parts.list.size() > most ? ", …" : ""));
+}
+
+/// By part: what was chosen for it.
+std::vector<Ride> chosen_rides(const io::MeshFile& file, const geometry::Parts& parts,
+                               const io::SceneAttach& attach) {
+  std::vector<Ride> chosen(parts.list.size(), attach.on ? Ride::none : Ride::by_itself);
+  for (const std::string& name : attach.free)
+    for (const int part : require_parts(file, parts, "garment.free_parts", name))
+      chosen[std::size_t(part)] = Ride::by_itself;
+  for (const std::string& name : attach.parts)
+    for (const int part : require_parts(file, parts, "garment.attach_parts", name)) {
+      if (part == 0)
+        throw std::invalid_argument("garment.attach_parts: '" + name +
+                                    "' is the largest part of the garment, and nothing carries it");
+      if (chosen[std::size_t(part)] == Ride::by_itself && attach.on)
+        throw std::invalid_argument("garment.attach_parts: '" + name +
+                                    "' is one of `garment.free_parts`, too; name it in one of them");
+      chosen[std::size_t(part)] = Ride::by_place;
+    }
+  return chosen;
+}
+
+std::vector<char> pinned_parts(const geometry::Parts& parts, const std::vector<std::vector<int>>& pins) {
   std::vector<char> pinned(parts.list.size(), 0);
   for (const std::vector<int>& list : pins)
     for (const int v : list)
       if (parts.of_vertex[std::size_t(v)] >= 0) pinned[std::size_t(parts.of_vertex[std::size_t(v)])] = 1;
-  std::erase_if(attached, [&](const auto& a) { return pinned[std::size_t(a.part)] != 0; });
-  if (attached.empty()) return;
-  geometry::set_rides(mesh, parts, attached);
+  return pinned;
+}
+
+void warn_of_attached(const io::MeshFile& file, const geometry::Parts& parts,
+                      const std::vector<geometry::AttachedPart>& attached, const std::string& name,
+                      const Context& context) {
   constexpr std::size_t most = 3;
+  std::size_t found = 0;
   std::string names;
-  for (std::size_t i = 0; i < std::min(most, attached.size()); ++i)
-    names += (i ? ", " : "") + name_of_part(file, parts, attached[i].part);
-  if (attached.size() > most) names += " and " + std::to_string(attached.size() - most) + " more";
+  for (const geometry::AttachedPart& a : attached) {
+    if (std::isinf(a.reach)) continue;
+    if (found++ < most) names += (found > 1 ? ", " : "") + name_of_part(file, parts, a.part);
+  }
+  if (found == 0) return;
+  if (found > most) names += " and " + std::to_string(found - most) + " more";
   context.warn("parts_attached",
-               name + ": " + std::to_string(attached.size()) + " of its " +
-                   std::to_string(parts.list.size()) + " parts lie on other cloth, and go with it: " + names +
-                   "; `garment.attach=false` lets them move by themselves",
+               name + ": " + std::to_string(found) + " of its " + std::to_string(parts.list.size()) +
+                   " parts lie on other cloth, and go with it: " + names +
+                   "; `garment.attach=false` lets them move by themselves, `garment.free_parts` those that "
+                   "it names",
                name, "garment.attach");
+}
+
+void let_ride(io::MeshFile& file, const io::SceneAttach& attach, const std::string& name,
+              const std::vector<std::vector<int>>& pins, const Context& context) {
+  if (!names_any(attach)) {
+    if (!attach.on) return geometry::set_rides(file.mesh, {}, {});
+    if (geometry::find_map(file.mesh, geometry::attribute::rides))
+      return geometry::free_drawn_parts(file.mesh);
+  }
+  const geometry::Parts parts = geometry::find_parts(file.mesh);
+  std::vector<geometry::AttachedPart> attached = attached_parts(file, parts, attach);
+  const std::vector<char> pinned = pinned_parts(parts, pins);
+  std::erase_if(attached, [&](const geometry::AttachedPart& a) {
+    const bool is_pinned = a.ride != Ride::by_itself && pinned[std::size_t(a.part)] != 0;
+    if (is_pinned && std::isinf(a.reach))
+      throw std::invalid_argument("garment.attach_parts: " + name_of_part(file, parts, a.part) +
+                                  " is pinned, so cloth cannot carry it");
+    return is_pinned;
+  });
+  if (attached.empty()) return;
+  geometry::set_rides(file.mesh, parts, attached);
+  warn_of_attached(file, parts, attached, name, context);
 }
 
 void tie_ends_of(io::MeshFile& file, const io::SceneMaterial& material, const std::string& name,
@@ -68,10 +133,23 @@ bool has_other_struts(const geometry::Mesh& mesh) {
 
 }  // namespace
 
-void attach_parts(io::MeshFile& file, const io::SceneMaterial& material, const std::string& name,
-                  const std::vector<std::vector<int>>& pins, const Context& context) {
-  let_ride(file, name, pins, context);
-  tie_ends_of(file, material, name, pins, context);
+std::vector<geometry::AttachedPart> attached_parts(const io::MeshFile& file, const geometry::Parts& parts,
+                                                   const io::SceneAttach& attach) {
+  const auto noted = geometry::find_map(file.mesh, geometry::attribute::rides);
+  if (!noted || names_any(attach))
+    return geometry::find_attached(file.mesh, parts, chosen_rides(file, parts, attach));
+  std::vector<geometry::AttachedPart> attached;
+  for (std::size_t part = 0; part < parts.list.size(); ++part)
+    if (const Ride ride = Ride((*noted)[parts.list[part].first]); ride != Ride::none)
+      attached.push_back({int(part), ride, std::numeric_limits<double>::infinity()});
+  return attached;
+}
+
+void attach_parts(io::MeshFile& file, const io::SceneAttach& attach, const io::SceneMaterial& material,
+                  const std::string& name, const std::vector<std::vector<int>>& pins,
+                  const Context& context) {
+  let_ride(file, attach, name, pins, context);
+  if (attach.on) tie_ends_of(file, material, name, pins, context);
 }
 
 void tie_refined_ends(geometry::Mesh& mesh, const geometry::Mesh& as_read,

@@ -81,8 +81,8 @@ io::MeshFile begin_garment(const io::Scene& scene, const Context& context, Chain
   if (scene.material.warp != "auto" || scene.material.is_woven())
     lay_warp(file, scene.material.warp, scene.material.is_woven(), scene.garment.string(), context);
   subdivide_tied(file, scene, context);
-  if (scene.attach)
-    attach_parts(file, scene.material, scene.garment.string(), find_pins(file, scene.pins), context);
+  attach_parts(file, scene.attach, scene.material, scene.garment.string(), find_pins(file, scene.pins),
+               context);
   return file;
 }
 

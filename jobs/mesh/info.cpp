@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/mesh/info.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "geometry/mesh/errors.h"
@@ -8,6 +9,8 @@
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/self_intersections.h"
 #include "io/mesh/mesh_file.h"
+#include "jobs/base/part_names.h"
+#include "jobs/cloth/attach_parts.h"
 #include "jobs/cloth/chain.h"
 #include "jobs/cloth/measure_shape.h"
 
@@ -32,6 +35,25 @@ Json self_intersections_of(const geometry::Mesh& mesh) {
   }
 }
 
+/// The parts of a garment, largest first, and whether they go with other cloth.
+Json parts_of(const io::MeshFile& file) {
+  constexpr std::size_t most = 100;
+  const geometry::Parts parts = geometry::find_parts(file.mesh);
+  Json list = Json::array();
+  for (std::size_t p = 0; p < std::min(most, parts.list.size()); ++p) {
+    const geometry::Part& part = parts.list[p];
+    list.push_back({{"name", name_of_part(file, parts, int(p))},
+                    {"vertices", part.vertices},
+                    {"area", part.area},
+                    {"centre", to_json(part.centre)},
+                    {"goes", "by itself"}});
+  }
+  for (const geometry::AttachedPart& a : attached_parts(file, parts, {}))
+    if (std::size_t(a.part) < list.size() && a.ride != geometry::Ride::by_itself)
+      list[std::size_t(a.part)]["goes"] = a.ride == geometry::Ride::rigid ? "as one" : "place by place";
+  return list;
+}
+
 }  // namespace
 
 Json info(const io::MeshFile& file) {
@@ -52,6 +74,7 @@ Json info(const io::MeshFile& file) {
               {"mean_edge_length", i.mean_edge_length},
               {"min_angle_deg", i.min_angle_deg}};
   report["borders"] = jobs::to_json(measure_borders(file.mesh));
+  if (i.components > 1) report["parts"] = parts_of(file);
   report["groups"] = file.group_names;
   report["materials"] = file.material_names;
   report["texture_coordinates"] = geometry::find_map(file.mesh, geometry::attribute::texture).has_value();

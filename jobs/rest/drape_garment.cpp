@@ -10,7 +10,7 @@
 
 #include "geometry/refine/local_refinement.h"
 #include "io/animation/animation_file.h"
-#include "jobs/base/measure_crossings.h"
+#include "jobs/base/part_names.h"
 #include "jobs/base/read_inputs.h"
 #include "jobs/base/seam_ties.h"
 #include "jobs/rest/drape_plan.h"

@@ -9,7 +9,7 @@
 #include "bridge/arrays/convert.h"
 #include "bridge/draping/drape_layers.h"
 #include "geometry/mesh/property_names.h"
-#include "jobs/base/measure_crossings.h"
+#include "jobs/base/part_names.h"
 #include "jobs/base/read_inputs.h"
 #include "jobs/base/seam_ties.h"
 #include "jobs/rest/drape_plan.h"

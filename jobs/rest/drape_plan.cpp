@@ -211,7 +211,7 @@ GivenGarment read_given(const io::Scene& scene, const BodyCollider* body, const 
                         const Context& context) {
   GivenGarment given{scene, {}};
   given.scene.subdivide = 0;
-  given.scene.attach = scene.attach && s.loose == LooseUse::hold;
+  given.scene.attach.on = scene.attach.on && s.loose == LooseUse::hold;
   given.file = begin_garment(given.scene, context);
   if (body && body->made_for)
     given.placed = place(given.file.mesh, *body->made_for, *body, scene.garment.string(), context);

@@ -5,7 +5,7 @@
 
 #include "bridge/arrays/convert.h"
 #include "geometry/mesh/struts.h"
-#include "jobs/base/measure_crossings.h"
+#include "jobs/base/part_names.h"
 
 namespace furrow::jobs {
 namespace {

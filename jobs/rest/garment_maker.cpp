@@ -86,7 +86,7 @@ physics::Cloth GarmentMaker::operator()(geometry::Mesh& mesh) {
   pins_ = find_pins(made, pins_on(mesh));
   complete_garment(made, scene_.material);
   tie_seams(mesh);
-  if (scene_.attach) tie_refined_ends(made.mesh, as_read_.mesh, scene_.material);
+  if (scene_.attach.on) tie_refined_ends(made.mesh, as_read_.mesh, scene_.material);
   bands_.clear();
   for (std::size_t i = 0; i < band_vertices_.size(); ++i)
     bands_.push_back(sew_band(made.mesh, loop_through(mesh, band_vertices_[i]),

@@ -367,6 +367,26 @@ async function broughtToAnother() {
   await tab.close();
 }
 
+/** A pocket lies on the sheet: its box is ticked, lets it go, and undo ticks it again. */
+async function partFreed() {
+  const corners = [[-0.05, 0.1], [0.05, 0.1], [0.05, 0.2], [-0.05, 0.2]].map(([x, y]) => `v ${x} ${y} 0.002\n`);
+  writeFileSync(join(scratch, "pocket.obj"), `o sheet\n${sheetText(14, 0.03)}o pocket\n${corners.join("")}f -4 -3 -2 -1\n`);
+  const { program, url } = await studio("pocket.obj", "--pin-loop", "top"), seen = await open(url, 1);
+  const box = seen.tab.getByLabel("pocket", { exact: true });
+  assert.ok(await box.isChecked());
+  await box.click();
+  await seen.at(1);
+  assert.ok(!(await box.isChecked()));
+  assert.equal(await seen.tab.getByLabel("sheet", { exact: true }).count(), 0, "what carries the others has no box");
+  await seen.tab.keyboard.press("Control+z");
+  await seen.at(0);
+  assert.ok(await box.isChecked());
+  await accessible(seen, "parts");
+  assert.deepEqual(seen.faults, []);
+  await seen.tab.close();
+  await end(program);
+}
+
 await run(async () => {
   for (const name of ["skirt.obj", "mannequin.obj"]) copyFileSync(join(meshes, name), join(scratch, name));
   const first = await studio("skirt.obj", "--body", "mannequin.obj", "--pin-loop", "top");
@@ -385,6 +405,7 @@ await run(async () => {
   assert.deepEqual(seen.faults, []);
   await end(first.program);
   await sheet();
+  await partFreed();
   await drapedAsDrawn();
   await drapedFlat();
   await broughtToAnother();

@@ -115,6 +115,38 @@ TEST_CASE("studio cloth: its mass is told and shown, without a body, too") {
   CHECK(more > grams);  // a fold has cloth in it
 }
 
+TEST_CASE("studio cloth: a part that lies on the cloth goes along or by itself, as a box is ticked") {
+  const Desk desk("parts");
+  io::MeshFile dressed;
+  dressed.mesh = geometry::equilateral_sheet(0.4, 0.4, 0.04);
+  const geometry::Mesh pocket = geometry::equilateral_sheet(0.1, 0.1, 0.04);
+  std::map<geometry::Vertex, geometry::Vertex> now;
+  for (const geometry::Vertex v : pocket.vertices())
+    now[v] = dressed.mesh->add_vertex(pocket.point(v) + geometry::Vector(0.1, 0.1, 0.003));
+  for (const geometry::Face f : pocket.faces()) {
+    std::vector<geometry::Vertex> corners;
+    for (const geometry::Vertex v : pocket.vertices_around_face(pocket.halfedge(f)))
+      corners.push_back(now[v]);
+    dressed.mesh->add_face(corners);
+  }
+  io::write_mesh(desk.folder / "sheet.ply", dressed);
+  const studio::Studio studio(desk.scene, desk.project());
+  Visitor page(studio);
+  page.ask("show");
+  REQUIRE(page.status.at("parts") == Json::parse(R"([{"name": "part 2", "goes": true}])"));
+  REQUIRE(page.ask("attach", {{"part", 0}, {"on", false}}).contains("done"));
+  CHECK(page.status.at("parts")[0].at("goes") == false);
+  CHECK(page.status.at("undo") == "free part 2");
+  REQUIRE(page.ask("save").contains("done"));
+  const io::TomlDocument saved = io::read_toml(desk.project() / "scene.toml");
+  CHECK(saved.root->at("garment").at("free_parts") == Json::parse(R"(["part 2"])"));
+  REQUIRE(page.ask("attach", {{"part", 0}, {"on", true}}).contains("done"));
+  CHECK(page.status.at("parts")[0].at("goes") == true);
+  REQUIRE(page.ask("undo").contains("done"));
+  CHECK(page.status.at("parts")[0].at("goes") == false);
+  CHECK(page.ask("attach", {{"part", 1}, {"on", true}}).contains("refused"));
+}
+
 TEST_CASE("studio cloth: what is encircled is held, and let go") {
   const Desk desk("lasso");
   const studio::Studio studio(desk.scene, desk.project());

@@ -132,6 +132,7 @@ std::vector<Key> keys() {
           {"pin", "on", {{"vertices", {0}}}, {"null", "1", "\"true\"", "[]"}},
           {"hold", "border", {{"on", true}}, no_indices},
           {"hold", "on", {{"border", 0}}, {"null", "1", "\"true\"", "[]"}},
+          {"attach", "part", {{"on", true}}, no_indices},
           {"play", "seconds", Json::object(), with(no_numbers, {"0", "-1", "601"})},
           {"play",
            "pulls",

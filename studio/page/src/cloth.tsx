@@ -9,6 +9,8 @@ export type ClothMap = "strain" | "distance" | "mass";
 export interface ClothActions {
   fabric(name: string): void;
   hold(border: number, on: boolean): void;
+  /** A part goes with the cloth that it lies on, or by itself. */
+  attach(part: number, on: boolean): void;
   wind(velocity: Vector): void;
   drape(): void;
   keep(): void;
@@ -55,6 +57,27 @@ function Borders({ status, actions }: { status: Status; actions: ClothActions })
             onChange={(e) => actions.hold(i, e.currentTarget.checked)}
           />
           {nameOf(border, status.borders.length === 1)}
+        </label>
+      ))}
+    </fieldset>
+  );
+}
+
+function Parts({ status, actions }: { status: Status; actions: ClothActions }) {
+  if (status.parts.length === 0) return null;
+  return (
+    <fieldset>
+      <legend title="Buttons, pockets, belts: they keep their place on the cloth; what is not ticked moves by itself">
+        Goes with the cloth
+      </legend>
+      {status.parts.map((part, i) => (
+        <label class="check" key={i}>
+          <input
+            type="checkbox"
+            checked={part.goes}
+            onChange={(e) => actions.attach(i, e.currentTarget.checked)}
+          />
+          {part.name}
         </label>
       ))}
     </fieldset>
@@ -202,6 +225,7 @@ export function Cloth({ status, busy, mayDraw, map, moving, speed, kept, actions
       )}
       <Fabrics status={status} choose={actions.fabric} />
       <Borders status={status} actions={actions} />
+      <Parts status={status} actions={actions} />
       <Wind wind={status.wind} blow={actions.wind} />
       <div class="group" role="group" aria-label="Colours">
         <span>Show</span>

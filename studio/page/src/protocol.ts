@@ -26,6 +26,7 @@ export interface Status {
   fabric: string;
   fabrics: { name: string; words: string }[];
   borders: Border[];
+  parts: { name: string; goes: boolean }[];
   wind: Vector;
   middle: number;
   has_body: boolean;

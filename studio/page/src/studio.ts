@@ -45,6 +45,7 @@ export class Studio {
   readonly cloth: ClothActions = {
     fabric: (name) => this.setFabric(name),
     hold: (border, on) => void this.ask("hold", { border, on }),
+    attach: (part, on) => void this.ask("attach", { part, on }),
     wind: (velocity) => void this.blow(velocity),
     drape: () => void this.drape(),
     keep: () => void this.keep(),

@@ -54,6 +54,24 @@ TEST_CASE("find_attached: a button is rigid, a pocket goes place by place, what 
   CHECK(attached(sheet_with(0.1, 0.02, 0.003, true)).size() == 1);  // whichever way it faces
 }
 
+TEST_CASE("find_attached: what is chosen overrides what is found") {
+  const Mesh mesh = sheet_with(0.1, 0.02, 0.003), far = sheet_with(0.1, 0.02, 0.2);
+  const std::vector<Ride> free{Ride::none, Ride::by_itself}, held{Ride::none, Ride::by_place};
+  const auto by_itself = find_attached(mesh, find_parts(mesh), free);
+  REQUIRE(by_itself.size() == 1);
+  CHECK(by_itself[0].ride == Ride::by_itself);
+  const auto pocket = find_attached(far, find_parts(far), held);
+  REQUIRE(pocket.size() == 1);
+  CHECK(pocket[0].ride == Ride::by_place);
+  const Mesh button = sheet_with(0.02, 0.01, 0.2);
+  CHECK(find_attached(button, find_parts(button), held).at(0).ride == Ride::rigid);
+  Mesh noted = mesh;
+  set_rides(noted, find_parts(noted), by_itself);
+  const std::vector<Ride> rides = rides_of(noted);
+  CHECK(std::count(rides.begin(), rides.end(), Ride::none) == std::ssize(rides));
+  CHECK(find_map(noted, attribute::rides).has_value());
+}
+
 TEST_CASE("find_attached: a layer as large as what it lies on rides only if it faces the other way") {
   CHECK(attached(sheet_with(0.28, 0.02, -0.0015)).empty());
   const auto inner = attached(sheet_with(0.28, 0.02, -0.0015, true));

@@ -6,11 +6,13 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/figure/attached_parts.h"
+#include "geometry/mesh/property_names.h"
 #include "geometry/mesh/self_intersections.h"
 #include "geometry/mesh/sheet.h"
 #include "geometry/mesh/struts.h"
 #include "io/scene/scene.h"
 #include "io/scene/state_file.h"
+#include "jobs/base/part_names.h"
 #include "jobs/chain/wrinkle.h"
 #include "jobs/move/simulate.h"
 #include "jobs/rest/drape.h"
@@ -112,11 +114,11 @@ TEST_CASE("attach_parts: what is pinned, and all of it where that is asked for, 
   const jobs::Context context{{}, recorder};
   io::MeshFile file;
   file.mesh = dressed.mesh;
-  jobs::attach_parts(file, {}, "dressed", {{int(dressed.button)}}, context);
+  jobs::attach_parts(file, {}, {}, "dressed", {{int(dressed.button)}}, context);
   const auto rides = geometry::rides_of(file.mesh);
   CHECK(std::count(rides.begin(), rides.end(), geometry::Ride::rigid) > 0);
   CHECK(std::count(rides.begin(), rides.end(), geometry::Ride::by_place) == 0);
-  jobs::attach_parts(file, {}, "dressed", {}, context);
+  jobs::attach_parts(file, {}, {}, "dressed", {}, context);
   CHECK(geometry::rides_of(file.mesh) == rides);  // the file notes which do
   for (const auto& [key, value] : {std::pair("attach", false), {"attach", true}}) {
     jobs::SimulateJob job;
@@ -126,6 +128,47 @@ TEST_CASE("attach_parts: what is pinned, and all of it where that is asked for, 
     const auto end = geometry::rides_of(jobs::simulate(job, recorder).garment.mesh);
     CHECK(end.empty() == !value);
   }
+}
+
+TEST_CASE("attach_parts: names override what is found, are kept, and must be those of parts") {
+  Dressed dressed;
+  tests::Recorder recorder;
+  const jobs::Context context{{}, recorder};
+  io::MeshFile file;
+  file.mesh = dressed.mesh;
+  file.group_names = {"shirt", "pocket"};
+  const geometry::Parts parts = geometry::find_parts(file.mesh);
+  const auto group = geometry::ensure_map(file.mesh, geometry::attribute::group);
+  for (const geometry::Face f : file.mesh->faces())
+    group[f] = parts.of_face[f.idx()] == 0 ? 0 : parts.of_face[f.idx()] == 1 ? 1 : -1;
+  CHECK(jobs::name_of_part(file, parts, 1) == "'pocket'");
+  CHECK(jobs::name_of_part(file, parts, 2) == "part 2 (10 vertices)");  // the button's faces are before it
+  const auto count = [&](geometry::Ride ride) {
+    const auto rides = geometry::rides_of(file.mesh);
+    return std::count(rides.begin(), rides.end(), ride);
+  };
+  jobs::attach_parts(file, {.free = {"pocket"}}, {}, "dressed", {}, context);
+  CHECK(count(geometry::Ride::by_place) == 0);
+  CHECK(count(geometry::Ride::rigid) > 0);
+  CHECK(geometry::struts(file.mesh).empty());  // nor is its rim tied
+  jobs::attach_parts(file, {}, {}, "dressed", {}, context);
+  CHECK(count(geometry::Ride::by_place) == 0);  // as it was chosen
+  CHECK(geometry::struts(file.mesh).empty());
+  jobs::attach_parts(file, {false, {"part 2"}, {}}, {}, "dressed", {}, context);
+  CHECK(count(geometry::Ride::by_place) == 0);
+  CHECK(count(geometry::Ride::rigid) > 0);
+  jobs::attach_parts(file, {.on = false}, {}, "dressed", {}, context);
+  CHECK(geometry::rides_of(file.mesh).empty());
+  const auto refuses = [&](const io::SceneAttach& attach, const std::vector<std::vector<int>>& pins,
+                           const std::string& words) {
+    CHECK_THROWS_WITH(jobs::attach_parts(file, attach, {}, "dressed", pins, context), Catch::Contains(words));
+    CHECK(geometry::rides_of(file.mesh).empty());
+  };
+  refuses({.parts = {"belt"}}, {},
+          "no part of the garment is called 'belt'; it has 'shirt', 'pocket', part 2");
+  refuses({.parts = {"shirt"}}, {}, "largest");
+  refuses({.parts = {"pocket"}, .free = {"pocket"}}, {}, "too");
+  refuses({.parts = {"part 2"}}, {{int(dressed.sheet)}}, "pinned");
 }
 
 TEST_CASE(
@@ -156,7 +199,7 @@ TEST_CASE(
   CHECK(std::count(rides.begin(), rides.end(), geometry::Ride::by_place) == 0);
   CHECK(std::count(rides.begin(), rides.end(), geometry::Ride::rigid) > 0);
   const jobs::Context context{{}, recorder};
-  jobs::attach_parts(file, {}, "dressed", {}, context);  // before it is drawn on
+  jobs::attach_parts(file, {}, {}, "dressed", {}, context);  // before it is drawn on
   job.garment = file;
   const geometry::Mesh on_pocket = jobs::wrinkle(job, recorder).garment.mesh;
   CHECK(geometry::rides_of(on_pocket) == rides);
