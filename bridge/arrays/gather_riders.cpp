@@ -26,14 +26,16 @@ bool has_area(const geometry::Mesh& mesh, geometry::Face f) {
   return CGAL::cross_product(b - a, c - a).squared_length() > 0;
 }
 
-/// What does not ride and has an area, as it was made; elements keep their numbers.
-geometry::Mesh cloth_as_made(const geometry::Mesh& mesh, const std::vector<Ride>& rides) {
+/// What may carry and has an area, as it was made; elements keep their numbers.
+geometry::Mesh carriers_as_made(const geometry::Mesh& mesh, const geometry::Parts& parts,
+                                const std::vector<Ride>& rides) {
+  const std::vector<char> small = geometry::small_parts(mesh, parts);
   geometry::Mesh made = mesh;
   const std::vector<geometry::Point> places = geometry::places_as_made(mesh);
   for (const geometry::Vertex v : made.vertices()) made.point(v) = places[v.idx()];
   for (std::size_t f = 0; f < rides.size(); ++f)
     if (const geometry::Face face{geometry::Face::size_type(f)};
-        rides[f] != Ride::none || !has_area(made, face))
+        rides[f] != Ride::none || small[std::size_t(parts.of_face[f])] || !has_area(made, face))
       made.remove_face(face);
   return made;
 }
@@ -43,17 +45,17 @@ class RiderGatherer {
   RiderGatherer(const geometry::Mesh& mesh, const std::vector<Ride>& rides)
       : mesh_(mesh),
         rides_(rides),
+        parts_(geometry::find_parts(mesh)),
         places_(geometry::places_as_made(mesh)),
-        made_(cloth_as_made(mesh, rides)),
+        made_(carriers_as_made(mesh, parts_, rides)),
         surface_(made_) {}
 
   std::vector<physics::Rider> gather() {
-    const geometry::Parts parts = geometry::find_parts(mesh_);
-    for (std::size_t part = 0; part < parts.list.size(); ++part) {
-      const Ride ride = rides_[parts.list[part].first.idx()];
+    for (std::size_t part = 0; part < parts_.list.size(); ++part) {
+      const Ride ride = rides_[parts_.list[part].first.idx()];
       std::vector<std::size_t> vertices;
-      for (std::size_t v = 0; v < parts.of_vertex.size(); ++v)
-        if (parts.of_vertex[v] == int(part)) vertices.push_back(v);
+      for (std::size_t v = 0; v < parts_.of_vertex.size(); ++v)
+        if (parts_.of_vertex[v] == int(part)) vertices.push_back(v);
       if (ride == Ride::rigid) add_rigid(vertices);
       if (ride != Ride::by_place) continue;
       const std::size_t first = riders_.size();
@@ -99,6 +101,7 @@ class RiderGatherer {
   const geometry::Mesh& mesh_;
   const std::vector<Ride>& rides_;
   std::vector<physics::Rider> riders_;
+  geometry::Parts parts_;
   std::vector<geometry::Point> places_;
   geometry::Mesh made_;
   geometry::SurfaceProjector surface_;

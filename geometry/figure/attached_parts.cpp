@@ -34,14 +34,24 @@ struct Box : CGAL::Box_intersection_d::Box_d<double, 3> {
   std::size_t index;
 };
 
+/// Of each part.
+std::vector<CGAL::Bbox_3> boxes_of(const Parts& parts, const std::vector<Point>& at) {
+  std::vector<CGAL::Bbox_3> boxes(parts.list.size());
+  for (std::size_t v = 0; v < at.size(); ++v)
+    if (const int part = parts.of_vertex[v]; part >= 0) boxes[std::size_t(part)] += at[v].bbox();
+  return boxes;
+}
+
 class Finder {
  public:
   Finder(const Mesh& mesh, const Parts& parts, const std::vector<Ride>& chosen)
-      : mesh_(mesh), parts_(parts), chosen_(chosen), at_(places_as_made(mesh)), boxes_(parts.list.size()) {
+      : mesh_(mesh),
+        parts_(parts),
+        chosen_(chosen),
+        at_(places_as_made(mesh)),
+        boxes_(boxes_of(parts, at_)),
+        small_(small_parts(mesh, parts)) {
     chosen_.resize(parts.list.size(), Ride::none);
-    for (const Vertex v : mesh.vertices())
-      if (const int part = parts_.of_vertex[v.idx()]; part >= 0)
-        boxes_[std::size_t(part)] += at_[v.idx()].bbox();
     find_amid();
     find_joined();
     look();
@@ -63,11 +73,7 @@ class Finder {
   }
 
  private:
-  double size(int part) const {
-    const CGAL::Bbox_3& b = boxes_[std::size_t(part)];
-    return std::hypot(b.xmax() - b.xmin(), b.ymax() - b.ymin(), b.zmax() - b.zmin());
-  }
-  bool is_small(int part) const { return size(part) <= small_size; }
+  bool is_small(int part) const { return small_[std::size_t(part)] != 0; }
   AttachedPart as_chosen(int part) const {
     const Ride ride = chosen_[std::size_t(part)];
     return {part, ride == Ride::by_place && is_small(part) ? Ride::rigid : ride, never};
@@ -129,7 +135,7 @@ class Finder {
 
   void note(std::size_t v, std::size_t f) {
     const int of = parts_.of_face[f];
-    if (of >= parts_.of_vertex[v]) return;
+    if (of >= parts_.of_vertex[v] || is_small(of)) return;
     const Face face{Face::size_type(f)};
     const CGAL::Triangle_3<Point::R> t = triangle(face);
     if (t.is_degenerate()) return;
@@ -189,6 +195,7 @@ class Finder {
   std::vector<Ride> chosen_;  ///< by part
   std::vector<Point> at_;
   std::vector<CGAL::Bbox_3> boxes_;  ///< by part
+  std::vector<char> small_;          ///< by part
   std::vector<Vertex> amid_;         ///< by part
   std::vector<char> stays_;
   std::map<std::pair<std::size_t, int>, Near> near_;  ///< by vertex and part
@@ -204,6 +211,17 @@ std::vector<Point> places_as_made(const Mesh& mesh) {
     places.push_back(std::isfinite(at[0]) ? Point(at[0], at[1], at[2]) : mesh.point(v));
   }
   return places;
+}
+
+std::vector<char> small_parts(const Mesh& mesh, const Parts& parts) {
+  const std::vector<CGAL::Bbox_3> boxes = boxes_of(parts, places_as_made(mesh));
+  std::vector<char> small(parts.list.size(), 0);
+  for (std::size_t part = 1; part < boxes.size(); ++part) {
+    const CGAL::Bbox_3& b = boxes[part];
+    const double size = std::hypot(b.xmax() - b.xmin(), b.ymax() - b.ymin(), b.zmax() - b.zmin());
+    small[part] = size <= small_size;
+  }
+  return small;
 }
 
 std::vector<AttachedPart> find_attached(const Mesh& mesh, const Parts& parts,

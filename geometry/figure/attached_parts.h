@@ -31,6 +31,10 @@ struct AttachedPart {
 std::vector<AttachedPart> find_attached(const Mesh& mesh, const Parts& parts,
                                         const std::vector<Ride>& chosen = {});
 
+/// By part: of at most 60 mm across, as it was made, and not the largest: it carries nothing, and is stiff
+/// where it rides. O(vertices).
+std::vector<char> small_parts(const Mesh& mesh, const Parts& parts);
+
 /// Notes them in attribute::rides, in place of what it said; without any it is taken off.
 void set_rides(Mesh& mesh, const Parts& parts, const std::vector<AttachedPart>& attached);
 

@@ -116,8 +116,9 @@ struct SceneOutput {
 
 /// Which parts of a garment go with other cloth that they lie on (jobs/cloth/attach_parts.h).
 struct SceneAttach {
-  bool on = true;                        ///< those do that are found to; false: none, and no end is tied
-  std::vector<std::string> parts, free;  ///< these do in any case; these do not (jobs/base/part_names.h)
+  bool on = true;  ///< those do that are found to; false: none, and no end is tied
+  std::vector<std::string> parts = {},
+                           free = {};  ///< these do in any case; these do not (jobs/base/part_names.h)
 };
 
 /// All that a simulation is made of; what a scene file, flags and a saved state say. Paths are as the program

@@ -20,13 +20,10 @@ using geometry::Ride;
 
 namespace {
 
-/// A sheet, and a patch that lies 3 mm over it.
-geometry::Mesh sheet_with_patch() {
-  geometry::Mesh mesh = geometry::equilateral_sheet(0.3, 0.3, 0.03);
-  const geometry::Mesh patch = geometry::equilateral_sheet(0.08, 0.08, 0.02);
+void add_patch(geometry::Mesh& mesh, double side, const geometry::Vector& moved_by) {
+  const geometry::Mesh patch = geometry::equilateral_sheet(side, side, side / 4);
   const std::size_t first = mesh.number_of_vertices();
-  for (const geometry::Vertex v : patch.vertices())
-    mesh.add_vertex(patch.point(v) + geometry::Vector(0.11, 0.1, 0.003));
+  for (const geometry::Vertex v : patch.vertices()) mesh.add_vertex(patch.point(v) + moved_by);
   const auto moved = [&](geometry::Vertex v) {
     return geometry::Vertex(geometry::Vertex::size_type(first + v.idx()));
   };
@@ -34,6 +31,12 @@ geometry::Mesh sheet_with_patch() {
     const geometry::Halfedge h = patch.halfedge(f);
     mesh.add_face(moved(patch.source(h)), moved(patch.target(h)), moved(patch.target(patch.next(h))));
   }
+}
+
+/// A sheet, and a patch that lies 3 mm over it.
+geometry::Mesh sheet_with_patch() {
+  geometry::Mesh mesh = geometry::equilateral_sheet(0.3, 0.3, 0.03);
+  add_patch(mesh, 0.08, {0.11, 0.1, 0.003});
   geometry::ensure_rest_lengths(mesh);
   geometry::ensure_rest_angles(mesh);
   geometry::lump_masses(mesh, 0.2);
@@ -77,6 +80,19 @@ TEST_CASE("gather: what rides is no cloth, and its mass is with the cloth below 
       CHECK(cloth.particles.mass[corner] > apart.particles.mass[corner] - 1e-15);
   }
   CHECK(bridge::couple_bending(mesh, plate(), cloth).coupled > 0);
+}
+
+TEST_CASE("gather: a button rides on the sheet, not on a nearer button that goes by itself") {
+  geometry::Mesh mesh = geometry::equilateral_sheet(0.3, 0.3, 0.03);
+  add_patch(mesh, 0.02, {0.1, 0.1, 0.05});
+  add_patch(mesh, 0.02, {0.13, 0.1, 0.05});
+  const geometry::Parts parts = geometry::find_parts(mesh);
+  REQUIRE(parts.list.size() == 3);
+  geometry::set_rides(mesh, parts, {{1, Ride::by_itself, 0}, {2, Ride::rigid, 0}});
+  const std::vector<physics::Rider> riders = bridge::riders_of(mesh);
+  CHECK(riders.size() == parts.list[2].vertices);
+  for (const physics::Rider& r : riders)
+    for (const int corner : r.triangle) CHECK(parts.of_vertex[std::size_t(corner)] == 0);
 }
 
 TEST_CASE("gather: a patch that rides is where it was on the sheet after a second of fall and wind") {

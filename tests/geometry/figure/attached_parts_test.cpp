@@ -65,6 +65,11 @@ TEST_CASE("find_attached: what is chosen overrides what is found") {
   CHECK(pocket[0].ride == Ride::by_place);
   const Mesh button = sheet_with(0.02, 0.01, 0.2);
   CHECK(find_attached(button, find_parts(button), held).at(0).ride == Ride::rigid);
+  Mesh two = sheet_with(0.02, 0.01, 0.05);
+  add_sheet(two, 0.02, 0.02, 0.01, {0.09, 0.05, 0.05});
+  const auto other = find_attached(two, find_parts(two), free);  // it is nearer to the free one than to cloth
+  REQUIRE(other.size() == 2);
+  CHECK(other[1].ride == Ride::rigid);
   Mesh noted = mesh;
   set_rides(noted, find_parts(noted), by_itself);
   const std::vector<Ride> rides = rides_of(noted);

@@ -154,7 +154,7 @@ TEST_CASE("attach_parts: names override what is found, are kept, and must be tho
   jobs::attach_parts(file, {}, {}, "dressed", {}, context);
   CHECK(count(geometry::Ride::by_place) == 0);  // as it was chosen
   CHECK(geometry::struts(file.mesh).empty());
-  jobs::attach_parts(file, {false, {"part 2"}, {}}, {}, "dressed", {}, context);
+  jobs::attach_parts(file, {.on = false, .parts = {"part 2"}}, {}, "dressed", {}, context);
   CHECK(count(geometry::Ride::by_place) == 0);
   CHECK(count(geometry::Ride::rigid) > 0);
   jobs::attach_parts(file, {.on = false}, {}, "dressed", {}, context);
