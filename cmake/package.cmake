@@ -15,7 +15,7 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # `furrow chart` draws by gnuplot; the others are for programs on the libraries.
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "gnuplot-nox, libeigen3-dev, libmetis-dev, libcgal-dev, libassimp-dev, libembree-dev, \
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "gnuplot-nox, libeigen3-dev, libmetis-dev, libcgal-dev, libassimp-dev, libdraco-dev, libmeshoptimizer-dev, libembree-dev, \
 libpng-dev, nlohmann-json3-dev, libtomlplusplus-dev, libfmt-dev")
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "Ridge and valley lines become wrinkles of a finished 3D garment; physics settles the cloth on its body.
  The program, its studio with a gallery, and the C++ libraries with their headers.")

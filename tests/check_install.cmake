@@ -96,7 +96,7 @@ must_be_there(${documents}/LICENSE ${documents}/physics/LICENSE ${documents}/REA
 
 # furrow_consume(NAME PREFIX COMPONENT OUT): configures a project that uses a component where all that physics does not
 # need cannot be found; OUT: CMake's result.
-set(hidden CGAL Boost assimp embree PNG nlohmann_json tomlplusplus fmt CLI11)
+set(hidden CGAL Boost assimp draco meshoptimizer embree PNG nlohmann_json tomlplusplus fmt CLI11)
 list(TRANSFORM hidden REPLACE "(.+)" "-DCMAKE_DISABLE_FIND_PACKAGE_\\1=ON")
 function(furrow_consume name from component out)
   file(WRITE ${alone}/${name}/CMakeLists.txt "cmake_minimum_required(VERSION 3.25)

@@ -369,7 +369,7 @@ std::optional<KeptGltf> keep_beside(const std::string& bytes, const OwnFolder& f
 }
 
 /// Runs in the child: the logger is the child's own.
-std::string import(const std::filesystem::path& path, const std::string& bytes, const ReadOptions& options) {
+std::string import(const std::filesystem::path& path, std::string bytes, const ReadOptions& options) {
   std::vector<std::string> messages;
   auto* warnings = new Warnings(messages);  // the logger's from here
   Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0)
@@ -377,9 +377,12 @@ std::string import(const std::filesystem::path& path, const std::string& bytes, 
   Assimp::Importer importer;
   auto* folder = new OwnFolder(path);  // the importer's from here
   importer.SetIOHandler(folder);
-  if (std::optional<std::string> plain =
-          plain_gltf(bytes, [&](const std::string& name) { return folder->content(name); }))
-    folder->put_in_place(std::move(*plain));
+  const OpenBeside open = [&](const std::string& name) { return folder->content(name); };
+  if (std::optional<std::string> unpacked = unpack_gltf(bytes, open)) {
+    bytes = std::move(*unpacked);
+    folder->put_in_place(bytes);
+  }
+  if (std::optional<std::string> plain = plain_gltf(bytes, open)) folder->put_in_place(std::move(*plain));
   const aiScene* scene = importer.ReadFile(path.string(), aiProcess_ValidateDataStructure);
   if (!scene && !folder->refused().empty())
     throw ContentError("it names '" + folder->refused() +

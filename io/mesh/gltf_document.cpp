@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "geometry/mesh/errors.h"
 #include "io/base/base64.h"
@@ -86,6 +87,17 @@ std::string GltfDocument::elements_of(const json& accessor) {
   std::string elements;
   for (std::size_t i = 0; i < count; ++i) elements += bytes.substr(at + i * stride, size);
   return elements;
+}
+
+std::string GltfDocument::serialized(std::string_view added) {
+  if (!added.empty())
+    root["buffers"].push_back({{"byteLength", added.size()},
+                               {"uri", "data:application/octet-stream;base64," +
+                                           to_base64(std::as_bytes(std::span(added.data(), added.size())))}});
+  if (chunk.empty()) return root.dump();
+  std::string binary(chunk);
+  binary.append((4 - binary.size() % 4) % 4, '\0');
+  return glb_head(root, binary.size()) + binary;
 }
 
 std::size_t gltf_element_size(const json& accessor) {

@@ -24,6 +24,8 @@ class GltfDocument {
   std::string_view bytes_of(const nlohmann::json& view);
   /// The elements of an accessor with a view and a known size, side by side.
   std::string elements_of(const nlohmann::json& accessor);
+  /// The file, as root now says, with these bytes as one more buffer where there are any.
+  std::string serialized(std::string_view added);
 
  private:
   std::string_view buffer_of(std::size_t number);

@@ -44,6 +44,12 @@ using OpenBeside = std::function<std::optional<std::string>(const std::string& n
 /// into the binary. Throws geometry::ContentError for what is no glTF 2.0.
 KeptGltf keep_gltf(std::string_view bytes, const OpenBeside& open);
 
+/// The file without the compressions of geometry that it requires (KHR_draco_mesh_compression,
+/// EXT_meshopt_compression); nothing if it requires none. Throws geometry::ContentError for what is no
+/// glTF 2.0, and for data that cannot be unpacked. Hostile data may take time and memory: to be called in a
+/// child.
+std::optional<std::string> unpack_gltf(std::string_view bytes, const OpenBeside& open);
+
 /// The file with floats where it has integers, and with inverse bind matrices; nothing if it is so already.
 /// Throws geometry::ContentError for what is no glTF 2.0, and, naming it, for a required extension that says
 /// where vertices are and is not read.

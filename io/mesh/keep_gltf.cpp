@@ -97,8 +97,8 @@ class GltfKeeper {
   }
 
   void add_mesh_node(std::size_t n) {
-    const json& node = from_["nodes"][n];
-    const json& mesh = from_["meshes"][index_in(list_of(from_, "meshes"), node["mesh"])];
+    const json& node = list_of(from_, "nodes")[n];
+    const json& mesh = list_of(from_, "meshes")[index_in(list_of(from_, "meshes"), node["mesh"])];
     GltfMeshNode& found = kept_.mesh_nodes.emplace_back();
     found.node = static_cast<int>(n);
     found.name = node.value("name", "");
@@ -274,7 +274,7 @@ class GltfKeeper {
   std::size_t keep_accessor(const json& number) {
     const std::size_t from = index_in(list_of(from_, "accessors"), number);
     if (const auto known = accessors_.find(from); known != accessors_.end()) return known->second;
-    json accessor = from_["accessors"][from];
+    json accessor = list_of(from_, "accessors")[from];
     const std::size_t size = gltf_element_size(accessor);
     if (accessor.contains("sparse") || accessor.contains("extensions") || size == 0) {
       keep_views_in(accessor);
@@ -297,7 +297,7 @@ class GltfKeeper {
   std::size_t keep_view(const json& number) {
     const std::size_t from = index_in(list_of(from_, "bufferViews"), number);
     if (const auto known = views_.find(from); known != views_.end()) return known->second;
-    const json& view = from_["bufferViews"][from];
+    const json& view = list_of(from_, "bufferViews")[from];
     if (view.contains("extensions")) throw ContentError("a view that is kept is compressed");
     return views_[from] = add_view(document_.bytes_of(view), view);
   }

@@ -3,10 +3,8 @@
 #include <array>
 #include <cstdint>
 #include <set>
-#include <span>
 
 #include "geometry/mesh/errors.h"
-#include "io/base/base64.h"
 #include "io/base/byte_order.h"
 #include "io/mesh/glb_container.h"
 #include "io/mesh/gltf_document.h"
@@ -20,8 +18,7 @@ using nlohmann::json;
 /// How required extensions begin that say nothing of where vertices are: what they say is kept as it is.
 constexpr std::array harmless = {"KHR_mesh_quantization", "KHR_materials_", "KHR_texture_", "EXT_texture_",
                                  "MSFT_texture_",         "KHR_lights_",    "EXT_lights_",  "KHR_xmp"};
-constexpr std::array compressions = {"KHR_draco_mesh_compression", "EXT_meshopt_compression",
-                                     "KHR_meshopt_compression"};
+constexpr const char* newer_compression = "KHR_meshopt_compression";  // others are undone before
 
 /// What is numbers and may be stored as integers (glTF 2.0, 3.7.2.1, and KHR_mesh_quantization).
 bool is_measured(const std::string& attribute) {
@@ -63,7 +60,7 @@ class GltfPlainer {
     for (json& skin : lists("skins"))
       if (!skin.contains("inverseBindMatrices")) add_identities(skin);
     if (floats_.empty() && !changed_) return std::nullopt;
-    return serialized();
+    return document_.serialized(floats_);
   }
 
  private:
@@ -79,10 +76,9 @@ class GltfPlainer {
       const auto name = one.get<std::string>();
       const auto begins = [&](const char* known) { return name.starts_with(known); };
       if (std::ranges::any_of(harmless, begins)) continue;
-      const bool packed = std::ranges::any_of(compressions, begins);
       throw ContentError("it needs the extension " + name + ", which is not read; " +
-                         (packed ? "undo it by gltf-transform cp packed.glb plain.glb"
-                                 : "export the file again without it"));
+                         (name == newer_compression ? "undo it by gltf-transform cp packed.glb plain.glb"
+                                                    : "export the file again without it"));
     }
   }
 
@@ -130,18 +126,6 @@ class GltfPlainer {
     json& views = document_.root["bufferViews"];
     views.push_back({{"buffer", buffer}, {"byteOffset", begin}, {"byteLength", length}});
     return views.size() - 1;
-  }
-
-  std::string serialized() {
-    if (!floats_.empty())
-      document_.root["buffers"].push_back(
-          {{"byteLength", floats_.size()},
-           {"uri", "data:application/octet-stream;base64," +
-                       to_base64(std::as_bytes(std::span(floats_.data(), floats_.size())))}});
-    if (document_.chunk.empty()) return document_.root.dump();
-    std::string binary(document_.chunk);
-    binary.append((4 - binary.size() % 4) % 4, '\0');
-    return glb_head(document_.root, binary.size()) + binary;
   }
 
   GltfDocument document_;

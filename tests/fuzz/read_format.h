@@ -14,6 +14,7 @@
 #include "geometry/mesh/mesh.h"
 #include "io/animation/animation_file.h"
 #include "io/base/camera_file.h"
+#include "io/mesh/gltf_source.h"
 #include "io/mesh/mesh_formats.h"
 #include "io/scene/scene_file.h"
 #include "io/scene/state_file.h"
@@ -23,7 +24,7 @@ namespace furrow::fuzz {
 
 /// Of tests/fuzz/corpus, a folder each: the formats of meshes that are read from a text, and the rest.
 inline std::vector<std::string> formats() {
-  std::vector<std::string> names{"pc2", "mdd", "camera", "strokes", "scene", "state"};
+  std::vector<std::string> names{"pc2", "mdd", "camera", "strokes", "scene", "state", "packed"};
   for (const io::MeshEnding& e : io::mesh_endings())
     if (e.read) names.emplace_back(e.text.substr(1));
   return names;
@@ -68,6 +69,14 @@ inline void read_frames(const std::string& bytes, bool mdd) {
   for (std::size_t i = 0; i < frames->frames(); ++i) require(frames->positions(i).size() == 4);
 }
 
+/// What comes before assimp reads a glTF, and what is kept of it.
+inline void unpack(const std::string& bytes) {
+  const io::OpenBeside open = [](const std::string&) { return std::nullopt; };
+  const std::string plain = io::unpack_gltf(bytes, open).value_or(bytes);
+  io::plain_gltf(plain, open);
+  io::keep_gltf(plain, open);
+}
+
 inline void read(std::string_view format, const std::string& bytes) {
   if (const io::MeshEnding* mesh = io::find_mesh_ending("fuzz." + std::string(format)))
     return read_mesh(bytes, mesh->format);
@@ -76,6 +85,7 @@ inline void read(std::string_view format, const std::string& bytes) {
   if (format == "strokes") io::drawn_strokes_from(bytes, "fuzz");
   if (format == "scene") io::read_scene(io::parse_toml(bytes, "fuzz"), ".");
   if (format == "state") io::parse_state(bytes, "fuzz");
+  if (format == "packed") unpack(bytes);
 }
 
 /// Reads, or refuses as content or as a wrong option: true and false. Anything else is a finding, and thrown

@@ -272,10 +272,9 @@ TEST_CASE("glTF: an extension that is needed and not read is refused by its name
     seam.scene["extensionsUsed"] = seam.scene["extensionsRequired"] = {name};
     return error_of_glb(seam.glb());
   };
-  for (const char* name : {"EXT_meshopt_compression", "KHR_draco_mesh_compression"})
-    CHECK(
-        error_with(name).ends_with(std::string("it needs the extension ") + name +
-                                   ", which is not read; undo it by gltf-transform cp packed.glb plain.glb"));
+  CHECK(error_with("KHR_meshopt_compression")
+            .ends_with("it needs the extension KHR_meshopt_compression, which is not read; undo it by "
+                       "gltf-transform cp packed.glb plain.glb"));
   CHECK(
       error_with("EXT_mesh_gpu_instancing").ends_with("which is not read; export the file again without it"));
   for (const char* name : {"KHR_texture_transform", "KHR_materials_unlit", "KHR_lights_punctual"})
@@ -320,7 +319,4 @@ TEST_CASE("glTF: files with integers from other programs are read as those with 
   has_box(io::read_mesh(wild / "quant_int.glb"), {-0.26, 0.55, -0.23}, {0.26, 1.04, 0.21});
   has_box(io::read_mesh(wild / "plain_vpf.glb"), {-0.26, 0.55, -0.23}, {0.26, 1.04, 0.21});
   has_box(io::read_mesh(second / "quantized.glb"), {-0.2, 0.18, -0.2}, {0.2, 0.22, 0.2});
-  for (const char* name : {"plain_meshopt.glb", "plain_draco.glb"})
-    CHECK(content_error([&] { io::read_mesh(wild / name); }).find("it needs the extension ") !=
-          std::string::npos);
 }
