@@ -17,6 +17,7 @@
 #include "geometry/mesh/errors.h"
 #include "io/base/bytes_file.h"
 #include "io/base/child_process.h"
+#include "io/base/lower_case.h"
 #include "io/base/name_table.h"
 #include "io/mesh/file_frame.h"
 #include "io/mesh/gltf_source.h"
@@ -302,12 +303,17 @@ class Warnings : public Assimp::LogStream {
 /// Opens ordinary files in a file's own folder, or below it: a file from elsewhere may name any other.
 class OwnFolder : public Assimp::DefaultIOSystem {
  public:
-  explicit OwnFolder(const std::filesystem::path& file) : file_(file.string()), folder_(folder_of(file)) {}
+  explicit OwnFolder(const std::filesystem::path& file)
+      : file_(as_glb(file).string()), folder_(folder_of(file)) {}
+  /// The name under which assimp reads the file: it knows no ending of a GLB but its own.
+  static std::filesystem::path as_glb(std::filesystem::path file) {
+    return ending_of(file) == ".vrm" ? file.replace_extension(".glb") : file;
+  }
   /// Gives these bytes in place of the file's.
   void put_in_place(std::string bytes) { in_place_ = std::move(bytes); }
 
   bool Exists(const char* path) const override {
-    return is_own(path) && Assimp::DefaultIOSystem::Exists(path);
+    return (in_place_ && path == file_) || (is_own(path) && Assimp::DefaultIOSystem::Exists(path));
   }
   Assimp::IOStream* Open(const char* path, const char* mode) override {
     if (in_place_ && path == file_)
@@ -377,13 +383,17 @@ std::string import(const std::filesystem::path& path, std::string bytes, const R
   Assimp::Importer importer;
   auto* folder = new OwnFolder(path);  // the importer's from here
   importer.SetIOHandler(folder);
+  const std::filesystem::path name = OwnFolder::as_glb(path);
+  if (name != path) folder->put_in_place(bytes);
   const OpenBeside open = [&](const std::string& name) { return folder->content(name); };
   if (std::optional<std::string> unpacked = unpack_gltf(bytes, open)) {
     bytes = std::move(*unpacked);
     folder->put_in_place(bytes);
   }
-  if (std::optional<std::string> plain = plain_gltf(bytes, open)) folder->put_in_place(std::move(*plain));
-  const aiScene* scene = importer.ReadFile(path.string(), aiProcess_ValidateDataStructure);
+  std::vector<std::string> shown;
+  if (std::optional<std::string> plain = plain_gltf(bytes, open, shown))
+    folder->put_in_place(std::move(*plain));
+  const aiScene* scene = importer.ReadFile(name.string(), aiProcess_ValidateDataStructure);
   if (!scene && !folder->refused().empty())
     throw ContentError("it names '" + folder->refused() +
                        "', which is no file in its folder or below; lay the file there");
@@ -396,6 +406,7 @@ std::string import(const std::filesystem::path& path, std::string bytes, const R
   std::optional<KeptGltf> kept = keep_beside(bytes, *folder, lost);
   SoupFile file = SceneReader(*scene, options, kept ? &*kept : nullptr).read();
   if (!kept) file.gltf.lost = lost;
+  file.warnings.insert(file.warnings.end(), shown.begin(), shown.end());
   for (std::string& message : messages) file.warnings.push_back("assimp: " + std::move(message));
   return to_bytes(file);
 }

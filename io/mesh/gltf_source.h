@@ -50,10 +50,11 @@ KeptGltf keep_gltf(std::string_view bytes, const OpenBeside& open);
 /// child.
 std::optional<std::string> unpack_gltf(std::string_view bytes, const OpenBeside& open);
 
-/// The file with floats where it has integers, and with inverse bind matrices; nothing if it is so already.
-/// Throws geometry::ContentError for what is no glTF 2.0, and, naming it, for a required extension that says
-/// where vertices are and is not read.
-std::optional<std::string> plain_gltf(std::string_view bytes, const OpenBeside& open);
+/// The file with floats where it has integers, with the shape keys applied that it shows, of which it warns,
+/// and with inverse bind matrices; nothing if it is so already. Throws geometry::ContentError for what is no
+/// glTF 2.0, and, naming it, for a required extension that says where vertices are and is not read.
+std::optional<std::string> plain_gltf(std::string_view bytes, const OpenBeside& open,
+                                      std::vector<std::string>& warnings);
 
 /// The vertex attribute that a joint's weights are.
 std::string weight_attribute(const std::string& joint);

@@ -50,7 +50,9 @@ constexpr MeshEnding endings[] = {
     {".stl", MeshFormat::stl, false, read_stl, whole<write_stl>, "", is_own_stl},
     {".gltf", MeshFormat::gltf, false, nullptr, nullptr,
      "a glTF is written as one file; let its name end in .glb"},
-    {".glb", MeshFormat::gltf, false, nullptr, glb, "", is_own_glb}};
+    {".glb", MeshFormat::gltf, false, nullptr, glb, "", is_own_glb},
+    {".vrm", MeshFormat::gltf, false, nullptr, nullptr,
+     "what VRM says of an avatar is not written; let the name end in .glb"}};
 
 template <class Wanted>
 std::string listed(const Wanted& wanted, const std::string& last) {

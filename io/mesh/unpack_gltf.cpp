@@ -174,7 +174,8 @@ class GltfUnpacker {
     }
     std::string corners;
     for (draco::FaceIndex f(0); f < mesh.num_faces(); ++f)
-      for (const draco::PointIndex& p : mesh.face(f)) append_in_order(corners, p.value(), std::endian::little);
+      for (const draco::PointIndex& p : mesh.face(f))
+        append_in_order(corners, p.value(), std::endian::little);
     if (!primitive.contains("indices")) {
       primitive["indices"] = list_of(document_.root, "accessors").size();
       document_.root["accessors"].push_back({{"type", "SCALAR"}});

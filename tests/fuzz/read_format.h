@@ -73,7 +73,8 @@ inline void read_frames(const std::string& bytes, bool mdd) {
 inline void unpack(const std::string& bytes) {
   const io::OpenBeside open = [](const std::string&) { return std::nullopt; };
   const std::string plain = io::unpack_gltf(bytes, open).value_or(bytes);
-  io::plain_gltf(plain, open);
+  std::vector<std::string> warnings;
+  io::plain_gltf(plain, open, warnings);
   io::keep_gltf(plain, open);
 }
 

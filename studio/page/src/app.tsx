@@ -20,7 +20,7 @@ function takeDroppedFiles(page: Page) {
   addEventListener("drop", (e) => {
     e.preventDefault();
     const files = sorted([...(e.dataTransfer?.files ?? [])]);
-    if (!files.garment) return page.set({ badFile: "Drop a mesh: an .obj, .ply, .off, .stl or .glb." });
+    if (!files.garment) return page.set({ badFile: "Drop a mesh: an .obj, .ply, .off, .stl, .glb or .vrm." });
     page.set({ badFile: "", files, opening: page.now().opening || "again" });
   });
 }

@@ -25,7 +25,7 @@ interface Props {
 
 /** Files that were dropped together: what is called a body or a person is the body, else the second. */
 export function sorted(dropped: File[]): Files {
-  const meshes = dropped.filter((f) => /\.(obj|ply|off|stl|glb)$/i.test(f.name));
+  const meshes = dropped.filter((f) => /\.(obj|ply|off|stl|glb|vrm)$/i.test(f.name));
   const figure =
     meshes.length > 1
       ? (meshes.find((f) => /body|figure|mannequin|avatar|human|person/i.test(f.name)) ?? meshes[1])
@@ -72,7 +72,7 @@ function FileField({
       {label}
       <input
         type="file"
-        accept=".obj,.ply,.off,.stl,.glb"
+        accept=".obj,.ply,.off,.stl,.glb,.vrm"
         onChange={(e) => change(e.currentTarget.files?.[0] ?? null)}
       />
       {file && <span class="note">{file.name}</span>}

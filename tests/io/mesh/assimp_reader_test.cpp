@@ -281,13 +281,95 @@ TEST_CASE("glTF: an extension that is needed and not read is refused by its name
     CHECK(error_with(name) == "(none)");
 }
 
-TEST_CASE("glTF: integers that cannot be read are refused, whatever contradicts itself") {
+namespace {
+
+std::size_t add_bytes(Seam& seam, const std::string& bytes) {
+  seam.buffer.resize((seam.buffer.size() + 3) / 4 * 4);
+  seam.scene["bufferViews"].push_back(
+      {{"buffer", 0}, {"byteOffset", seam.buffer.size()}, {"byteLength", bytes.size()}});
+  seam.buffer += bytes;
+  seam.scene["buffers"][0]["byteLength"] = seam.buffer.size();
+  return seam.scene["bufferViews"].size() - 1;
+}
+
+/// With a shape key that moves vertex 5 alone, by (0, 0.5, 0), as sparse elements of an accessor without
+/// view.
+template <class Made>
+Made with_key(Made seam) {
+  std::string index, move;
+  put_bytes(index, std::uint16_t{5});
+  for (const float x : {0.F, 0.5F, 0.F}) put_bytes(move, x);
+  const std::size_t at = add_bytes(seam, index), values = add_bytes(seam, move);
+  seam.scene["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", seam.scene["accessors"].size()}}};
+  seam.scene["meshes"][0]["extras"] = {{"targetNames", {"Long"}}};
+  seam.scene["accessors"].push_back({{"componentType", 5126},
+                                     {"count", 6},
+                                     {"type", "VEC3"},
+                                     {"sparse",
+                                      {{"count", 1},
+                                       {"indices", {{"bufferView", at}, {"componentType", 5123}}},
+                                       {"values", {{"bufferView", values}}}}}});
+  return seam;
+}
+
+}  // namespace
+
+TEST_CASE("glTF: the shape that its keys show is read, and told") {
+  SkinnedSeam seam = with_key(SkinnedSeam());
+  const Point before = seam.read().mesh->point(Vertex(3));
+  CHECK(seam.read().warnings.size() == 1);
+  const auto shows = [&](double share) {
+    const io::MeshFile file = seam.read();
+    CHECK(std::sqrt(CGAL::squared_distance(file.mesh->point(Vertex(3)), before + Vector(0, share / 2, 0))) <
+          1e-6);
+    CHECK(file.mesh->point(Vertex(1)) == Point(1, 0, 0));
+    REQUIRE(file.warnings.size() == 2);
+    CHECK(file.warnings[1].find("shows shape keys ('Long'); its shape with them is read") !=
+          std::string::npos);
+  };
+  seam.scene["meshes"][0]["weights"] = {0.5};
+  shows(0.5);
+  seam.scene["nodes"][0]["weights"] = {1.0};
+  shows(1);
+  seam.scene["nodes"][0]["weights"] = {0.0};
+  CHECK(seam.read().warnings.size() == 1);
+  seam.scene["nodes"][0]["weights"] = {1.0};
+  seam.scene["accessors"].back()["count"] = 5;
+  CHECK(error_of_glb(seam.glb()).find("a.glb: an accessor names an element") != std::string::npos);
+  seam.scene["accessors"].back()["count"] = 7;
+  CHECK(error_of_glb(seam.glb()).find("a shape key has not the vertices of its mesh") != std::string::npos);
+  seam.scene["accessors"].back()["count"] = 2000000000;
+  CHECK(error_of_glb(seam.glb()).find("too many elements") != std::string::npos);
+}
+
+TEST_CASE("glTF: an avatar of VRM is read as the GLB that it is, and none is written") {
+  TemporaryFolder folder;
+  const SkinnedSeam seam;
+  spit(folder / "a.vrm", seam.glb());
+  CHECK(differences(io::read_mesh(folder / "a.vrm"), seam.read()) == std::array<double, 3>{});
+  CHECK_THROWS_WITH(io::write_mesh(folder / "b.vrm", seam.read()),
+                    Catch::Contains("let the name end in .glb"));
+  CHECK(!std::filesystem::exists(folder / "b.vrm"));
+}
+
+TEST_CASE("glTF: sparse integers are read, and those that cannot be refused, whatever contradicts itself") {
   SkinnedSeam sparse, far;
   store_as_integers(sparse, "TEXCOORD_0", 5123, true);
-  sparse.scene["accessors"][1]["sparse"] = {{"count", 1}};
-  CHECK(error_of_glb(sparse.glb()).find("sparse integers are not read") != std::string::npos);
+  std::string index, values;
+  put_bytes(index, std::uint16_t{4});
+  for (const double t : {1., 0.5}) put_bytes(values, static_cast<std::uint16_t>(std::lround(65535 * t)));
+  const std::size_t at = add_bytes(sparse, index), given = add_bytes(sparse, values);
+  sparse.scene["accessors"][1]["sparse"] = {{"count", 1},
+                                            {"indices", {{"bufferView", at}, {"componentType", 5123}}},
+                                            {"values", {{"bufferView", given}}}};
+  const io::MeshFile read = sparse.read();
+  const auto texture = *find_map(read.mesh, attribute::texture);
+  int changed = 0;
+  for (const Halfedge h : read.mesh->halfedges())
+    if (!read.mesh->is_border(h)) changed += std::abs(texture[h][0] - 1) < 1e-6;
+  CHECK(changed == 1);
   store_as_integers(far, "TEXCOORD_0", 5123, true);
-  far.scene["accessors"][1]["count"] = 2000000000;
+  far.scene["accessors"][1]["count"] = 2000;
   CHECK(error_of_glb(far.glb()).find("an accessor reaches beyond its view") != std::string::npos);
   far.scene["accessors"][1]["type"] = "VEC7";
   CHECK(error_of_glb(far.glb()).find("a.glb: ") != std::string::npos);
