@@ -77,7 +77,7 @@ std::string_view GltfDocument::buffer_of(std::size_t number) {
 
 std::string GltfDocument::elements_of(const json& accessor) {
   const std::size_t size = gltf_element_size(accessor);
-  const json& view = root["bufferViews"][index_in(list_of(root, "bufferViews"), accessor["bufferView"])];
+  const json& view = root["bufferViews"][index_in(list_of(root, "bufferViews"), accessor.at("bufferView"))];
   const std::string_view bytes = bytes_of(view);
   const std::size_t count = count_of(accessor, "count"), at = count_of(accessor, "byteOffset");
   const std::size_t stride = std::max(count_of(view, "byteStride"), size);

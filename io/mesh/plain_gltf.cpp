@@ -161,7 +161,7 @@ class GltfPlainer {
   std::vector<float> numbers_of(const json& accessor) {
     const int type = accessor.at("componentType").get<int>();
     const std::size_t size = gltf_element_size(accessor), count = count_of(accessor, "count"),
-                      width = gltf_element_size(json{{"componentType", 5121}, {"type", accessor["type"]}});
+                      width = gltf_element_size(json{{"componentType", 5121}, {"type", accessor.at("type")}});
     if (size == 0) throw ContentError("an accessor is of no known type");
     if (count > most_numbers / width) throw ContentError("an accessor has too many elements");
     const auto decoded = [&](const std::string& bytes) {
@@ -177,7 +177,7 @@ class GltfPlainer {
     if (sparse.empty()) return numbers;
     json at = sparse.at("indices"), values = sparse.at("values");
     at.update({{"type", "SCALAR"}, {"count", sparse.at("count")}});
-    values.update({{"type", accessor["type"]}, {"componentType", type}, {"count", sparse.at("count")}});
+    values.update({{"type", accessor.at("type")}, {"componentType", type}, {"count", sparse.at("count")}});
     const std::string indices = document_.elements_of(at);
     const std::vector<float> given = decoded(document_.elements_of(values));
     const std::size_t step = gltf_element_size(at);

@@ -41,10 +41,12 @@ LineReport measure_line(std::size_t id, double now, double before, const io::Wri
   const bool known = id < record.lines.size() && std::isfinite(record.lines[id].smoothed_height);
   line.smoothed_height = known ? record.lines[id].smoothed_height : before;
   line.height = known ? now - record.lines[id].base_height : now;
-  // Lines so close together that they made one shape have no height of their own to keep.
+  // Lines so close together that they made one shape have no height of their own to keep; one that is drawn
+  // to have an edge there, of height 0, has none at all.
+  constexpr double least_height = 1e-4;  // [m]
   const auto crest = id < record.lines.size() ? record.lines[id].crest_height : std::nullopt;
   const bool alone = !crest || std::abs(line.smoothed_height) > 0.35 * std::abs(*crest);
-  if (alone &&
+  if (alone && std::abs(line.smoothed_height) > least_height &&
       std::abs(line.smoothed_height) > 0.1 * std::abs(line.drawn_height.value_or(line.smoothed_height)))
     line.kept = line.height / line.smoothed_height;
   return line;

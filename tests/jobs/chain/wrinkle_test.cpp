@@ -221,6 +221,19 @@ TEST_CASE("wrinkle: with settle a line lasts, pressed where silk gives way, and 
   CHECK(fallen.rest->lines.at(0).press == 1);
 }
 
+TEST_CASE(
+    "wrinkle: a line of height 0 has no height to keep, is not pressed, and nothing is said to be lost") {
+  tests::Recorder recorder;
+  jobs::WrinkleJob job = hung_silk();
+  std::get<std::vector<io::DrawnStroke>>(job.strokes)[0].stroke.height = 0;
+  const jobs::WrinkleReport flat = jobs::wrinkle(job, recorder);
+  REQUIRE(flat.rest);
+  CHECK(flat.rest->outcome() == "at rest");
+  CHECK(!flat.rest->lines.at(0).kept);
+  CHECK(flat.rest->lines.at(0).press == 1);
+  CHECK(!recorder.warned_of("lines_lost"));
+}
+
 TEST_CASE("wrinkle: a line with a press of its own is not pressed twice, and rests as one that got it") {
   tests::Recorder recorder;
   jobs::WrinkleJob job = hung_silk();
