@@ -42,6 +42,14 @@ bool touches_geometry(const json& value) {
   return false;
 }
 
+/// Takes out what names shape keys in VRM 1.0 (VRMC_vrm, expressions); whether there was any.
+bool drop_key_binds(json& value) {
+  if (!value.is_structured()) return false;
+  bool dropped = value.is_object() && value.erase("morphTargetBinds") > 0;
+  for (json& inner : value) dropped = drop_key_binds(inner) || dropped;
+  return dropped;
+}
+
 /// Copies what is kept out of a document whose geometry is left behind.
 class GltfKeeper {
  public:
@@ -264,6 +272,8 @@ class GltfKeeper {
              "; add it where the file is used");
         value["extensions"].erase(name);
       }
+      if (drop_key_binds(value["extensions"]))
+        lose("the shape keys of expressions (VRM); add them where the file is used");
       if (value["extensions"].empty()) value.erase("extensions");
     }
     for (auto& [key, inner] : value.items())

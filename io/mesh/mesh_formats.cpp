@@ -52,7 +52,7 @@ constexpr MeshEnding endings[] = {
      "a glTF is written as one file; let its name end in .glb"},
     {".glb", MeshFormat::gltf, false, nullptr, glb, "", is_own_glb},
     {".vrm", MeshFormat::gltf, false, nullptr, nullptr,
-     "what VRM says of an avatar is not written; let the name end in .glb"}};
+     "an avatar is written as a GLB; let its name end in .glb"}};
 
 template <class Wanted>
 std::string listed(const Wanted& wanted, const std::string& last) {

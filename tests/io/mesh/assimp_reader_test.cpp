@@ -348,7 +348,7 @@ TEST_CASE("glTF: an avatar of VRM is read as the GLB that it is, and none is wri
   spit(folder / "a.vrm", seam.glb());
   CHECK(differences(io::read_mesh(folder / "a.vrm"), seam.read()) == std::array<double, 3>{});
   CHECK_THROWS_WITH(io::write_mesh(folder / "b.vrm", seam.read()),
-                    Catch::Contains("let the name end in .glb"));
+                    Catch::Contains("let its name end in .glb"));
   CHECK(!std::filesystem::exists(folder / "b.vrm"));
 }
 

@@ -112,9 +112,24 @@ void animate(Seam& seam) {
   seam.scene["animations"] = json::array({animation});
 }
 
+const json vrm = json::parse(R"({"specVersion": "1.0", "humanoid": {"humanBones": {"hips": {"node": 1}}},
+  "expressions": {"preset": {"happy": {"isBinary": false,
+    "morphTargetBinds": [{"node": 0, "index": 0, "weight": 1.0}]}}}})");
+
 const std::string png_bytes = "\x89PNG\r\n\x1a\nnot much of a picture";
 
 }  // namespace
+
+TEST_CASE("glTF out: VRM 1.0 stays, but for the shape keys that its expressions name, which is told") {
+  Seam seam = lying_skin();
+  seam.scene["extensions"]["VRMC_vrm"] = vrm;
+  seam.scene["extensionsUsed"] = {"VRMC_vrm"};
+  const WrittenGlb out = glb_of(read_glb(seam.glb()));
+  CHECK(tells(out.lost, "the shape keys of expressions (VRM)"));
+  json without = vrm;
+  without["expressions"]["preset"]["happy"].erase("morphTargetBinds");
+  CHECK(out.glb.scene["extensions"]["VRMC_vrm"] == without);
+}
 
 TEST_CASE("glTF out: a GLB goes back as it came: places, textures, materials, nodes") {
   Seam seam;
