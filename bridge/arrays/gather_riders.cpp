@@ -43,8 +43,7 @@ geometry::Mesh carriers_as_made(const geometry::Mesh& mesh, const geometry::Part
 class RiderGatherer {
  public:
   RiderGatherer(const geometry::Mesh& mesh, const std::vector<Ride>& rides)
-      : mesh_(mesh),
-        rides_(rides),
+      : rides_(rides),
         parts_(geometry::find_parts(mesh)),
         places_(geometry::places_as_made(mesh)),
         made_(carriers_as_made(mesh, parts_, rides)),
@@ -98,7 +97,6 @@ class RiderGatherer {
     riders_.push_back(physics::rider_at(to_eigen(places_[v]), int(v), triangle, at, weights));
   }
 
-  const geometry::Mesh& mesh_;
   const std::vector<Ride>& rides_;
   std::vector<physics::Rider> riders_;
   geometry::Parts parts_;

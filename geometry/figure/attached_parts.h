@@ -8,8 +8,8 @@ namespace furrow::geometry {
 
 /// How a part of a garment rides on the cloth that it lies on, the value of attribute::rides.
 enum class Ride : int {
-  none,     ///< it is cloth
-  rigid,    ///< as one, with the face nearest to its middle: a button
+  none,      ///< it is cloth
+  rigid,     ///< as one, with the face nearest to its middle: a button
   by_place,  ///< each vertex with what is nearest to it: a pocket, a belt, an inner side
   by_itself  ///< it is cloth that nothing holds to other cloth, since somebody chose so; rides_of(): none
 };

@@ -20,8 +20,8 @@ struct EndOnCloth {
 /// part, faces as the vertex's does and lies more than 100 mm away along the cloth; or to a part of at least
 /// four times the area, faces either way. Three in a row are needed. Places are those of
 /// attribute::rest_position where that is known. What rides or was chosen to go by itself (attached_parts.h),
-/// and what a strut holds, is none. Ascending by vertex. Cost: O(faces log faces), and what lies within 100 mm of each that cloth is
-/// near to. Throws as find_parts().
+/// and what a strut holds, is none. Ascending by vertex. Cost: O(faces log faces), and what lies within 100
+/// mm of each that cloth is near to. Throws as find_parts().
 std::vector<EndOnCloth> find_ends_on_cloth(const Mesh& mesh);
 
 /// Ties each to the corners of its face by struts of the stiffness [N/m], as long as they are as made; they
