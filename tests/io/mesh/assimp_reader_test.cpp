@@ -283,15 +283,6 @@ TEST_CASE("glTF: an extension that is needed and not read is refused by its name
 
 namespace {
 
-std::size_t add_bytes(Seam& seam, const std::string& bytes) {
-  seam.buffer.resize((seam.buffer.size() + 3) / 4 * 4);
-  seam.scene["bufferViews"].push_back(
-      {{"buffer", 0}, {"byteOffset", seam.buffer.size()}, {"byteLength", bytes.size()}});
-  seam.buffer += bytes;
-  seam.scene["buffers"][0]["byteLength"] = seam.buffer.size();
-  return seam.scene["bufferViews"].size() - 1;
-}
-
 /// With a shape key that moves vertex 5 alone, by (0, 0.5, 0), as sparse elements of an accessor without
 /// view.
 template <class Made>
@@ -299,7 +290,7 @@ Made with_key(Made seam) {
   std::string index, move;
   put_bytes(index, std::uint16_t{5});
   for (const float x : {0.F, 0.5F, 0.F}) put_bytes(move, x);
-  const std::size_t at = add_bytes(seam, index), values = add_bytes(seam, move);
+  const std::size_t at = add_view(seam, index), values = add_view(seam, move);
   seam.scene["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", seam.scene["accessors"].size()}}};
   seam.scene["meshes"][0]["extras"] = {{"targetNames", {"Long"}}};
   seam.scene["accessors"].push_back({{"componentType", 5126},
@@ -358,7 +349,7 @@ TEST_CASE("glTF: sparse integers are read, and those that cannot be refused, wha
   std::string index, values;
   put_bytes(index, std::uint16_t{4});
   for (const double t : {1., 0.5}) put_bytes(values, static_cast<std::uint16_t>(std::lround(65535 * t)));
-  const std::size_t at = add_bytes(sparse, index), given = add_bytes(sparse, values);
+  const std::size_t at = add_view(sparse, index), given = add_view(sparse, values);
   sparse.scene["accessors"][1]["sparse"] = {{"count", 1},
                                             {"indices", {{"bufferView", at}, {"componentType", 5123}}},
                                             {"values", {{"bufferView", given}}}};

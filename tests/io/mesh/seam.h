@@ -53,6 +53,16 @@ struct Seam {
   }
 };
 
+/// Appends bytes with a view of their own, whose number it returns.
+inline std::size_t add_view(Seam& seam, const std::string& bytes) {
+  seam.buffer.resize((seam.buffer.size() + 3) / 4 * 4);
+  seam.scene["bufferViews"].push_back(
+      {{"buffer", 0}, {"byteOffset", seam.buffer.size()}, {"byteLength", bytes.size()}});
+  seam.buffer += bytes;
+  seam.scene["buffers"][0]["byteLength"] = seam.buffer.size();
+  return seam.scene["bufferViews"].size() - 1;
+}
+
 /// The seam with a skin of two joints, one above the other, whose inverse bind matrices are given by their
 /// translations.
 struct SkinnedSeam : Seam {

@@ -27,15 +27,6 @@ void require(Seam& seam, const char* extension) {
   seam.scene["extensionsUsed"] = seam.scene["extensionsRequired"] = {extension};
 }
 
-std::size_t add_view(Seam& seam, const std::string& bytes) {
-  seam.buffer.resize((seam.buffer.size() + 3) / 4 * 4);
-  seam.scene["bufferViews"].push_back(
-      {{"buffer", 0}, {"byteOffset", seam.buffer.size()}, {"byteLength", bytes.size()}});
-  seam.buffer += bytes;
-  seam.scene["buffers"][0]["byteLength"] = seam.buffer.size();
-  return seam.scene["bufferViews"].size() - 1;
-}
-
 std::string bytes_of(const Seam& seam, std::size_t view) {
   const json& v = seam.scene["bufferViews"][view];
   return seam.buffer.substr(v["byteOffset"].get<std::size_t>(), v["byteLength"].get<std::size_t>());
