@@ -381,6 +381,7 @@ async function partFreed() {
   await seen.tab.keyboard.press("Control+z");
   await seen.at(0);
   assert.ok(await box.isChecked());
+  await seen.shot("18-parts");
   await accessible(seen, "parts");
   assert.deepEqual(seen.faults, []);
   await seen.tab.close();
