@@ -42,6 +42,17 @@ std::vector<CGAL::Bbox_3> boxes_of(const Parts& parts, const std::vector<Point>&
   return boxes;
 }
 
+/// By part: at most `small_size` across, and not the largest.
+std::vector<char> small_of(const std::vector<CGAL::Bbox_3>& boxes) {
+  std::vector<char> small(boxes.size(), 0);
+  for (std::size_t part = 1; part < boxes.size(); ++part) {
+    const CGAL::Bbox_3& b = boxes[part];
+    const double size = std::hypot(b.xmax() - b.xmin(), b.ymax() - b.ymin(), b.zmax() - b.zmin());
+    small[part] = size <= small_size;
+  }
+  return small;
+}
+
 class Finder {
  public:
   Finder(const Mesh& mesh, const Parts& parts, const std::vector<Ride>& chosen)
@@ -50,7 +61,7 @@ class Finder {
         chosen_(chosen),
         at_(places_as_made(mesh)),
         boxes_(boxes_of(parts, at_)),
-        small_(small_parts(mesh, parts)) {
+        small_(small_of(boxes_)) {
     chosen_.resize(parts.list.size(), Ride::none);
     find_amid();
     find_joined();
@@ -214,14 +225,7 @@ std::vector<Point> places_as_made(const Mesh& mesh) {
 }
 
 std::vector<char> small_parts(const Mesh& mesh, const Parts& parts) {
-  const std::vector<CGAL::Bbox_3> boxes = boxes_of(parts, places_as_made(mesh));
-  std::vector<char> small(parts.list.size(), 0);
-  for (std::size_t part = 1; part < boxes.size(); ++part) {
-    const CGAL::Bbox_3& b = boxes[part];
-    const double size = std::hypot(b.xmax() - b.xmin(), b.ymax() - b.ymin(), b.zmax() - b.zmin());
-    small[part] = size <= small_size;
-  }
-  return small;
+  return small_of(boxes_of(parts, places_as_made(mesh)));
 }
 
 std::vector<AttachedPart> find_attached(const Mesh& mesh, const Parts& parts,

@@ -40,15 +40,18 @@ std::vector<int> require_parts(const io::MeshFile& file, const geometry::Parts& 
 std::vector<Ride> chosen_rides(const io::MeshFile& file, const geometry::Parts& parts,
                                const io::SceneAttach& attach) {
   std::vector<Ride> chosen(parts.list.size(), attach.on ? Ride::none : Ride::by_itself);
+  std::vector<char> freed(parts.list.size(), 0);
   for (const std::string& name : attach.free)
-    for (const int part : require_parts(file, parts, "garment.free_parts", name))
+    for (const int part : require_parts(file, parts, "garment.free_parts", name)) {
       chosen[std::size_t(part)] = Ride::by_itself;
+      freed[std::size_t(part)] = 1;
+    }
   for (const std::string& name : attach.parts)
     for (const int part : require_parts(file, parts, "garment.attach_parts", name)) {
       if (part == 0)
         throw std::invalid_argument("garment.attach_parts: '" + name +
                                     "' is the largest part of the garment, and nothing carries it");
-      if (chosen[std::size_t(part)] == Ride::by_itself && attach.on)
+      if (freed[std::size_t(part)])
         throw std::invalid_argument("garment.attach_parts: '" + name +
                                     "' is one of `garment.free_parts`, too; name it in one of them");
       chosen[std::size_t(part)] = Ride::by_place;
@@ -78,8 +81,10 @@ void warn_of_attached(const io::MeshFile& file, const geometry::Parts& parts,
   if (found > most) names += " and " + std::to_string(found - most) + " more";
   context.warn("parts_attached",
                name + ": " + std::to_string(found) + " of its " + std::to_string(parts.list.size()) +
-                   " parts lie on other cloth, and go with it: " + names +
-                   "; `garment.attach=false` lets them move by themselves, `garment.free_parts` those that "
+                   (found == 1 ? " parts lies on other cloth, and goes with it: "
+                               : " parts lie on other cloth, and go with it: ") +
+                   names +
+                   "; `garment.attach=false` lets parts move by themselves, `garment.free_parts` those that "
                    "it names",
                name, "garment.attach");
 }

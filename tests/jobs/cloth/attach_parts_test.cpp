@@ -168,6 +168,7 @@ TEST_CASE("attach_parts: names override what is found, are kept, and must be tho
           "no part of the garment is called 'belt'; it has 'shirt', 'pocket', part 2");
   refuses({.parts = {"shirt"}}, {}, "largest");
   refuses({.parts = {"pocket"}, .free = {"pocket"}}, {}, "too");
+  refuses({.on = false, .parts = {"pocket"}, .free = {"pocket"}}, {}, "too");
   refuses({.parts = {"part 2"}}, {{int(dressed.sheet)}}, "pinned");
 }
 
