@@ -293,4 +293,43 @@ off = numpy.linalg.norm(shape_of(crossed, "Furrow settled")[inside] - numpy.arra
 check("the body is marked where it comes through (%d vertices)" % len(inside), middle in inside and len(inside) > 3)
 check("and nowhere else (%.0f mm off its middle)" % (1000 * off.max()), off.max() < 0.05 + 1.5 * size)
 check("for there the cloth does not cross itself", marked(colours_of_tangles.crossing) == [])
+
+# A patch before the sheet goes along with it, or falls, as its vertex group says.
+def sheet_with_patch(off):
+    first, at = len(grid.vertices), numpy.array((0, -off, 6.5 * size))
+    mesh = bpy.data.meshes.new("patched")
+    mesh.from_pydata([tuple(v.co) for v in grid.vertices] + [tuple(at + 0.02 * numpy.array(p)) for p in ((-1, 0, -1), (1, 0, -1), (1, 0, 1), (-1, 0, 1))],
+                     [], [tuple(p.vertices) for p in grid.polygons] + [(first, first + 1, first + 2, first + 3)])
+    obj = bpy.data.objects.new("patched %g" % off, mesh)
+    bpy.context.collection.objects.link(obj)
+    bpy.context.view_layer.objects.active = obj
+    rim = [v.index for v in mesh.vertices if v.co.z > size * n - 1e-3 and v.index < first]
+    obj.vertex_groups.new(name="top").add(rim, 1.0, "REPLACE")
+    obj.vertex_groups.new(name="patch").add([first + 2], 1.0, "REPLACE")  # one vertex names its part
+    return obj
+
+
+def said_of_patch(obj):
+    """The program's warnings, as it settles the sheet from its own shape."""
+    obj.pop("furrow_cloth", None)
+    run = type("Begun", (operators.Job,), {"key": "settled", "prepare": operators.Settle.prepare})().begin(bpy.context)
+    run.wait()
+    return [line for line in run.warnings if "'part_of_vertex_%d'" % (len(obj.data.vertices) - 4) in line]
+
+
+scene.furrow.body, scene.furrow.pins = None, "top"
+far, near = sheet_with_patch(0.15), sheet_with_patch(0.001)
+found, loose = "lies on other cloth, and goes with it", "nothing holds 1 of its 2 parts"
+for obj, attach, free, expected in ((far, "", "", loose), (far, "patch", "", ""), (far, "", "patch", loose), (near, "", "", found), (near, "", "patch", loose)):
+    bpy.context.view_layer.objects.active = obj
+    scene.furrow.attach, scene.furrow.free = attach, free
+    said = "".join(said_of_patch(obj))
+    check("%s, along: '%s', freely: '%s': '%s'" % (obj.name, attach, free, expected), expected in said and bool(expected) == bool(said))
+scene.furrow.attach = ""
+check("the patched sheet is settled", refusal(bpy.ops.furrow.settle) == "nothing")
+scene.furrow.free, scene.furrow.attach = "", "patch"
+check("and settled again from there, with another choice", refusal(bpy.ops.furrow.settle) == "nothing")
+scene.furrow.free, scene.furrow.attach = "", "top"
+check("what carries the others is refused by name", "part_of_vertex_0" in refusal(bpy.ops.furrow.settle))
+scene.furrow.attach = ""
 print("all passed")

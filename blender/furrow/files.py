@@ -24,14 +24,38 @@ def in_object(points, matrix, scale):
     return (points / scale) @ m[:3, :3].T + m[:3, 3]
 
 
+def parts_of(mesh):
+    """Of each vertex: the lowest vertex of the part that hangs together with it, by edges."""
+    ends = numpy.empty(2 * len(mesh.edges), dtype=numpy.int64)
+    mesh.edges.foreach_get("vertices", ends)
+    a, b = ends.reshape(-1, 2).T
+    lowest, before = numpy.arange(len(mesh.vertices)), None
+    while before is None or (lowest != before).any():
+        before = lowest.copy()
+        least = numpy.minimum(lowest[a], lowest[b])
+        for end in (a, b):
+            numpy.minimum.at(lowest, lowest[end], least)
+            numpy.minimum.at(lowest, end, least)
+        lowest = lowest[lowest]
+    return lowest
+
+
+def name_of_part(lowest):
+    return "part_of_vertex_%d" % lowest
+
+
 def write_obj(path, mesh, points):
-    """The mesh at these points, with its texture coordinates; vertices and faces as Blender has them."""
-    uv = mesh.uv_layers.active
+    """The mesh at these points, with its texture coordinates; vertices and faces as Blender has them, each part a group."""
+    uv, part, last = mesh.uv_layers.active, parts_of(mesh), None
+    alone = (part == part[0]).all() if len(part) else True
     with open(path, "w") as out:
         out.writelines("v %.9g %.9g %.9g\n" % tuple(p) for p in points)
         if uv:
             out.writelines("vt %.9g %.9g\n" % tuple(loop.uv) for loop in uv.data)
         for face in mesh.polygons:
+            if not alone and part[face.vertices[0]] != last:
+                last = part[face.vertices[0]]
+                out.write("g %s\n" % name_of_part(last))
             corners = zip(face.vertices, face.loop_indices)
             out.write("f " + " ".join("%d/%d" % (v + 1, l + 1) if uv else str(v + 1) for v, l in corners) + "\n")
 

@@ -172,17 +172,27 @@ class Job:
         if other and self.scene.body and other != self.scene.body and not worn_of(self.obj):
             raise runs.Failed("the garment lies about %s; settle it on %s first" % (other.name, self.scene.body.name))
 
-    def pins(self):
-        name = self.scene.pins
-        if not name:
-            return []
+    def vertices_of(self, name):
+        """Of a vertex group. Raises runs.Failed if there is none."""
         group = self.obj.vertex_groups.get(name)
         if not group:
             raise runs.Failed("%s has no vertex group '%s'" % (self.obj.name, name))
-        held = [str(v.index) for v in self.obj.data.vertices if any(g.group == group.index and g.weight > 0.5 for g in v.groups)]
+        held = [v.index for v in self.obj.data.vertices if any(g.group == group.index and g.weight > 0.5 for g in v.groups)]
         if not held:
             raise runs.Failed("no vertex has a weight above 0.5 in the group '%s'" % name)
-        return ["--pin-vertices", ",".join(held)]
+        return held
+
+    def pins(self):
+        return ["--pin-vertices", ",".join(map(str, self.vertices_of(self.scene.pins)))] if self.scene.pins else []
+
+    def chosen_parts(self):
+        """Parts that ride on other cloth, or do not, whatever is found."""
+        words, part = [], files.parts_of(self.obj.data)
+        for setting, group in (("attach_parts", self.scene.attach), ("free_parts", self.scene.free)):
+            if group:
+                names = [files.name_of_part(p) for p in sorted({part[v] for v in self.vertices_of(group)})]
+                words += ["--set", "garment.%s=%s" % (setting, json.dumps(names))]
+        return words
 
     def support(self, context):
         words = self.write_body(context) + self.pins()
@@ -256,7 +266,7 @@ class Settle(Job, bpy.types.Operator):
         job, words = "drape", self.input()
         if drawn:  # from the start, so that a coarse garment is refined before its lines are drawn and keeps its gap
             job, words = "wrinkle", ["garment.obj", "lines.json", "--settle", *frame]
-        words += [*self.support(context), *self.made_for(context), "--fabric", self.scene.fabric]
+        words += [*self.support(context), *self.made_for(context), *self.chosen_parts(), "--fabric", self.scene.fabric]
         return [[job, *words, "-o", "next.ply", "--json"], self.transfer()]
 
     def take(self, context, run):

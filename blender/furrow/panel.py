@@ -29,7 +29,8 @@ class Panel(bpy.types.Panel):
         cloth.prop(s, "body")
         cloth.prop(s, "made_for")
         if context.object and context.object.type == "MESH":
-            cloth.prop_search(s, "pins", context.object, "vertex_groups")
+            for group in ("pins", "attach", "free"):
+                cloth.prop_search(s, group, context.object, "vertex_groups")
         layout.operator("furrow.settle")
         layout.operator("furrow.keep")
         layout.operator("furrow.fit")

@@ -42,6 +42,10 @@ class Settings(bpy.types.PropertyGroup):
                                         description="The body that the garment lies about, if that is another one: Settle "
                                                     "brings it from there to the body, in its own size")
     pins: bpy.props.StringProperty(name="Pins", description="Vertex group of the garment that is held")
+    attach: bpy.props.StringProperty(name="Goes along", description="Vertex group: parts with a vertex in it ride on the cloth "
+                                                                    "nearest to them (belts, badges), however far off they lie")
+    free: bpy.props.StringProperty(name="Hangs freely", description="Vertex group: parts with a vertex in it are cloth of their "
+                                                                    "own (scarves), however near other cloth they lie")
     maps: bpy.props.BoolProperty(name="Bake a normal map", default=False,
                                  description="What the mesh is too coarse for goes into a normal map of its materials")
     texels: bpy.props.IntProperty(name="Texels", default=1024, min=16, max=8192)
