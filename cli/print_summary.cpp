@@ -102,15 +102,19 @@ void add_fit_lines(Lines& lines, const Json& fit) {
 
 void add_heights(Lines& lines, const Json& report) {
   constexpr std::size_t most = 4;
-  std::string kept;
+  std::string kept, gathered;
   std::size_t known = 0;
   for (const Json& line : list_of(report, "lines")) {
+    if (line.contains("gathered"))
+      gathered +=
+          (gathered.empty() ? "" : ", ") + name_of_line(line) + " " + per_cent(value_of(line, "gathered"));
     if (!std::isfinite(value_of(line, "kept")) || ++known > most) continue;
     kept += (kept.empty() ? "" : ", ") + name_of_line(line) + " " + per_cent(value_of(line, "kept"));
     if (line.contains("press")) kept += " pressed x" + number(value_of(line, "press"));
   }
   if (known > most) kept += " and " + std::to_string(known - most) + " more";
   if (!kept.empty()) lines.push_back("lines keep of their height: " + kept);
+  if (!gathered.empty()) lines.push_back("lines are gathered to: " + gathered);
 }
 
 void print_summary(std::ostream& out, const Summary& summary) {

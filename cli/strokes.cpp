@@ -33,15 +33,15 @@ struct Change {
 
 /// NAME.KEY=VALUE
 Change change_of(const std::string& text) {
-  static const std::vector<std::string> keys{"height", "width", "sharpness", "press",
-                                             "taper",  "flare", "smooth",    "set"};
+  static const std::vector<std::string> keys{"height", "width",  "sharpness", "press", "taper",
+                                             "flare",  "smooth", "set",       "gather"};
   const auto [place, value] = parted(text, "--change");
   const auto at = place.rfind('.');
   const std::string key = at == std::string::npos ? "" : place.substr(at + 1);
   if (std::find(keys.begin(), keys.end(), key) == keys.end())
     throw UsageError(
         "--change takes NAME.KEY=VALUE, where KEY is height, width, sharpness, press, taper, flare, "
-        "smooth or set, not '" +
+        "smooth, set or gather, not '" +
         text + "'");
   return {place.substr(0, at), key, value};
 }
@@ -50,6 +50,8 @@ Change change_of(const std::string& text) {
 bool change_words(geometry::Stroke& stroke, const Change& c) {
   if (c.key == "width" && c.value == "none") {
     stroke.width.reset(), stroke.widths.clear(), stroke.sharpness.reset();
+  } else if (c.key == "gather" && c.value == "none") {
+    stroke.gather.reset();
   } else if (c.key == "taper") {
     const bool two = c.value.find(',') != std::string::npos;
     const std::vector<double> lengths = parse_numbers(c.value, two ? 2 : 1, "--change " + c.name + ".taper");
@@ -80,6 +82,8 @@ void change(const std::string& text, const auto& named) {
     stroke.press = value;
   else if (c.key == "smooth")
     stroke.smooth = value;
+  else if (c.key == "gather")
+    stroke.gather = value;
   else
     stroke.set = value;
 }

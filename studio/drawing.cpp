@@ -76,7 +76,7 @@ std::string name_of_line(const Json& line) { return line.at("stroke").value("nam
 Json row_of(const Json& line) {
   const Json& stroke = line.at("stroke");
   Json row{{"name", name_of_line(line)}, {"on", line.value("on", true)}};
-  for (const char* key : {"height", "width", "sharpness", "press", "closed"})
+  for (const char* key : {"height", "width", "sharpness", "press", "gather", "closed"})
     if (stroke.contains(key) && !stroke[key].is_array()) row[key] = stroke[key];
   row["varies"] = stroke.contains("height") && stroke["height"].is_array();
   return row;
@@ -94,11 +94,16 @@ std::string free_name(const Json& drawing, const std::string& word) {
   }
 }
 
-std::string free_name_for(const Json& drawing, const Json& stroke) {
+std::string word_of(const Json& stroke) {
+  if (stroke.contains("gather")) return "gather";
   const Json height = stroke.value("height", Json());
   const auto is_low = [](const Json& h) { return h.is_number() && h.get<double>() < 0; };
   const bool is_valley = height.is_array() ? std::ranges::any_of(height, is_low) : is_low(height);
-  return free_name(drawing, is_valley ? "valley" : "ridge");
+  return is_valley ? "valley" : "ridge";
+}
+
+std::string free_name_for(const Json& drawing, const Json& stroke) {
+  return free_name(drawing, word_of(stroke));
 }
 
 std::filesystem::path made_for_of(const Json& drawing, const std::filesystem::path& folder) {

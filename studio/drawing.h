@@ -24,6 +24,8 @@ Json strokes_on(const Json& drawing);
 std::string name_of_line(const Json& line);
 /// What the list shows of a line.
 Json row_of(const Json& line);
+/// What a line of this stroke's kind is called: "ridge", "valley", "gather".
+std::string word_of(const Json& stroke);
 /// "ridge 3": no line of the drawing is called so, now or earlier.
 std::string free_name(const Json& drawing, const std::string& word);
 /// The same for a line of this stroke's kind.

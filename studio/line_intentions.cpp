@@ -19,7 +19,8 @@ const std::map<std::string, Range>& number_keys() {
   static const std::map<std::string, Range> keys{{"height", {-1, 1, "the height"}},
                                                  {"width", {0.001, 10, "the width"}},
                                                  {"sharpness", {0, 1, "the sharpness"}},
-                                                 {"press", {1, 1e6, "the press"}}};
+                                                 {"press", {1, 1e6, "the press"}},
+                                                 {"gather", {0.1, 1, "the gathers"}}};
   return keys;
 }
 
@@ -35,11 +36,12 @@ std::string change_line(const Json& body, Json& line) {
   for (const auto& [key, range] : number_keys()) {
     if (!body.contains(key)) continue;
     what = "change " + std::string(range.words) + " of";
-    if (key == "width" && body[key].is_null())
+    if ((key == "width" || key == "gather") && body[key].is_null())
       line["stroke"].erase(key);
     else
       line["stroke"][key] = number_of(body, key.c_str(), range.least, range.most);
   }
+  if (body.contains("gather")) what = body["gather"].is_null() ? "let go the thread of" : "gather";
   if (body.contains("points")) {
     if (!line["stroke"].contains("points"))
       throw Refused("this line is given by vertices of the garment, not by points: draw it anew");
@@ -86,12 +88,16 @@ bool has_name_of(const std::string& kind, const Json& stroke) {
          name.find_first_not_of("0123456789", kind.size() + 1) == name.npos;
 }
 
-/// A ridge that has become a valley, or the other way round, goes on under a name of that kind, unless
-/// somebody named it.
+/// A ridge that has become a valley or gathers, or the other way round, goes on under a name of that kind,
+/// unless somebody named it.
 void rename_turned(const Json& drawing, const Json& before, Json& stroke) {
-  if (!stroke.value("height", Json()).is_number() || !before.value("height", Json()).is_number()) return;
-  const double was = before["height"], is = stroke["height"];
-  if (was * is < 0 && has_name_of(was < 0 ? "valley" : "ridge", before) && stroke["name"] == before["name"])
+  const auto height = [](const Json& of) {
+    return of.value("height", Json()).is_number() ? of["height"].get<double>() : 0.0;
+  };
+  const bool turned =
+      before.contains("gather") != stroke.contains("gather") || height(before) * height(stroke) < 0;
+  const std::string was = word_of(before);
+  if (turned && was != word_of(stroke) && has_name_of(was, before) && stroke["name"] == before["name"])
     stroke["name"] = free_name_for(drawing, stroke);
 }
 
@@ -146,12 +152,15 @@ Json Session::set(const Json& body) {
   std::string what;
   for (const std::size_t at : lines) {
     Json& line = drawing["lines"][at];
+    if (lines.size() > 1 && body.contains("height") && line.at("stroke").contains("gather"))
+      continue;  // has none
     const Json before = line.at("stroke");
     const std::string name = name_of_line(line);
     what = change_line(lines.size() > 1 ? with_own_sign(body, line) : body, line) + " " +
            (lines.size() > 1 ? std::to_string(lines.size()) + " lines" : name);
     rename_turned(drawing, before, line["stroke"]);
   }
+  if (what.empty()) throw Refused("set: what a thread gathers has no height");
   if (flag_of(body, "live")) {
     show_preview(drawing);
     return {{"live", true}};

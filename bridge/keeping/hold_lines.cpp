@@ -17,7 +17,9 @@ bool press_loose(const TriedPlan& tried, bool first, const KeepOptions& o, std::
   const bool all = hangs_wrong(tried.outcome) || (any && !first);
   bool raised = false;
   for (std::size_t i = 0; i < loose.size(); ++i) {
-    double& press = presses[std::size_t(tried.plan.lines[i].id)];
+    const auto id = std::size_t(tried.plan.lines[i].id);
+    if (id < o.flat_lines.size() && o.flat_lines[id]) continue;
+    double& press = presses[id];
     const auto next = next_press(press, o);
     if (!next || !(loose[i] || (all && press < o.presses.front()))) continue;
     press = *next;

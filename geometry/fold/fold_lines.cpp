@@ -10,6 +10,7 @@
 #include "geometry/fold/fold_base.h"
 #include "geometry/fold/fold_clusters.h"
 #include "geometry/fold/fold_memory.h"
+#include "geometry/fold/gather_lines.h"
 #include "geometry/fold/line_height.h"
 #include "geometry/fold/raise_folds.h"
 #include "geometry/fold/smooth_folds.h"
@@ -131,6 +132,7 @@ std::vector<WrinkledLine> lines_of(std::span<const Stroke> strokes, const Folds&
         width = std::max(width, folds.heights[j].greatest_width()), sharpness = folds.curves[j].sharpness;
     lines.push_back(
         {stroke.name, stroke.height, 0, 0, 0, chains_of(chains, id), width, sharpness, stroke.press});
+    lines.back().gather = stroke.gather;
   }
   return lines;
 }
@@ -463,6 +465,7 @@ WrinkleReport fold_lines(Mesh& mesh, std::span<const Stroke> strokes, const Wrin
     observer(Stage::displaced, with_points(work, progress.displaced));
   }
   join(report, progress);
+  gather_lines(work, report.lines);
   end_wrinkling(work, options, report);
   if (observer) observer(Stage::smoothed, work);
   mesh = std::move(work);

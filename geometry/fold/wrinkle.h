@@ -54,6 +54,7 @@ struct WrinkledLine {
   /// Rule fold: mean height over the surface before, along its normals, of the vertices where the fold is
   /// full, scaled to `height` where that varies [m].
   std::optional<double> crest_height = {};
+  std::optional<double> gather = {};  ///< as asked for [-]; of rule fold (gather_lines.h)
   /// The stroke as it lies on the cloth before it is raised, as segments; of rule fold smoothed [m].
   std::vector<std::array<Coordinates<Point>, 2>> path = {};
 };

@@ -24,6 +24,7 @@ using Vec3 = Eigen::Vector3d;
 constexpr double width_of_height = 5, least_width = 4;  ///< in |k|, in h
 constexpr double most_of_height = 7.5;                  ///< in |k|: where h is long, it widens no fold beyond
 constexpr double steepest = 0.31;                       ///< k over width: 45 degrees
+constexpr double usual_gather = 0.04, least_gathers = 8;  ///< a gather's width [m]; how many of them, if less
 constexpr std::size_t most_points = 5000;
 
 Vec3 vec(const Point& p) { return {p.x(), p.y(), p.z()}; }
@@ -248,8 +249,11 @@ class Preparing {
       if (stroke.width) continue;
       const double apart = neighbour_distance(piece), k = std::abs(stroke.height);
       const double least = least_width * options_.mean_edge;
-      piece.width =
-          std::max(std::min(width_of_height * k, apart), k > 0 ? std::min(least, most_of_height * k) : least);
+      if (stroke.gather && k == 0)
+        piece.width = std::min(usual_gather, piece.length() / least_gathers);
+      else
+        piece.width = std::max(std::min(width_of_height * k, apart),
+                               k > 0 ? std::min(least, most_of_height * k) : least);
     }
     for (Piece& piece : pieces_)  // the pieces of a stroke are one fold
       for (const Piece& other : pieces_)

@@ -46,6 +46,8 @@ std::string shape_fault(const Stroke& stroke) {
       if (!(t >= 0) || !std::isfinite(t)) return fault("taper", t, ">= 0 (metres)");
   if (!(stroke.smooth >= 0 && stroke.smooth <= 10)) return fault("smooth", stroke.smooth, "in [0, 10]");
   if (!(stroke.set >= 0 && stroke.set <= 1)) return fault("set", stroke.set, "in [0, 1]");
+  if (stroke.gather && !(*stroke.gather >= 0.1 && *stroke.gather <= 1))
+    return fault("gather", *stroke.gather, "in [0.1, 1], a share of the line's length");
   return "";
 }
 

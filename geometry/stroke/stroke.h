@@ -39,6 +39,9 @@ struct Stroke {
   std::optional<bool> flare = {};  ///< it rises from end to end; none: if just one end lies on a border
   double smooth = 1;               ///< of the line as drawn, in tenths of the width [-]; [0, 10]; 0: none
   double set = 0.5;                ///< how much of the fold's angles becomes rest angle [-]; [0, 1]
+  /// A thread along it, of so much of its length, draws it in as it comes to rest [-]; [0.1, 1]. The width is
+  /// that of one gather along the line, two stitches. None: it has no thread.
+  std::optional<double> gather = {};
 };
 
 /// Presses [-] and widths [m, NaN: none] of lines by their ids: of the strokes from `first_line` on; of those

@@ -110,6 +110,7 @@ struct WrinkleRecord {
     std::optional<double> width = {};  ///< as asked for [m], as the next two [-]
     double sharpness = 0.5, press = 1;
     std::optional<double> crest_height = {};  ///< of a fold: of its crest as drawn, away from its ends [m]
+    std::optional<double> gather = {};        ///< as asked for [-]; none: no thread is sewn along it
   };
   double mean_structural_length = 0;  ///< r_avg of the mesh before any line [m]
   double mean_bending_length = 0;     ///< [m]
@@ -128,6 +129,8 @@ struct WrinkleRecord {
 /// Of the lines by id: widths [m] (NaN: none), and presses [-].
 std::vector<double> line_widths(const WrinkleRecord& record);
 std::vector<double> line_presses(const WrinkleRecord& record);
+/// The ids of the lines that a thread gathers, ascending.
+std::vector<int> gathered_lines(const WrinkleRecord& record);
 
 void set_wrinkle_record(MeshFile& file, const WrinkleRecord& record);
 /// The record, or nothing if the file has none. Fields of later versions that are not there keep their

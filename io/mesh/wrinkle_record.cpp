@@ -30,6 +30,7 @@ nlohmann::ordered_json to_json(const WrinkleRecord::Line& line) {
   }
   if (line.press != 1) json["press"] = line.press;
   if (line.crest_height) json["crest_height"] = *line.crest_height;
+  if (line.gather) json["gather"] = *line.gather;
   return json;
 }
 
@@ -41,7 +42,9 @@ WrinkleRecord::Line line_from(const nlohmann::ordered_json& json) {
   line.sharpness = json.value("sharpness", line.sharpness);
   line.press = json.value("press", line.press);
   if (json.contains("crest_height")) line.crest_height = height_of(json["crest_height"]);
+  if (json.contains("gather")) line.gather = json["gather"].get<double>();
   geometry::Stroke shape;
+  shape.gather = line.gather;
   shape.width = line.width;
   shape.sharpness = line.sharpness;
   shape.press = line.press;
@@ -66,6 +69,13 @@ std::vector<double> line_presses(const WrinkleRecord& record) {
   std::vector<double> presses;
   for (const WrinkleRecord::Line& line : record.lines) presses.push_back(line.press);
   return presses;
+}
+
+std::vector<int> gathered_lines(const WrinkleRecord& record) {
+  std::vector<int> ids;
+  for (std::size_t i = 0; i < record.lines.size(); ++i)
+    if (record.lines[i].gather) ids.push_back(int(i));
+  return ids;
 }
 
 void set_wrinkle_record(MeshFile& file, const WrinkleRecord& record) {

@@ -214,6 +214,8 @@ class StrokeReader {
     read("press", stroke.press);
     read("smooth", stroke.smooth);
     read("set", stroke.set);
+    read("gather", stroke.gather);
+    if (stroke.gather && !item.contains("height")) stroke.height = 0;
     if (item.contains("taper")) stroke.taper = read_taper(item["taper"]);
     if (item.contains("flare")) stroke.flare = fields_.truth(item["flare"], "flare");
     if (const std::string fault = shape_fault(stroke); !fault.empty()) fields_.fail(fault);
@@ -222,9 +224,9 @@ class StrokeReader {
   void read_stroke(const Json& item, DrawnStroke& drawn) {
     if (!item.is_object()) fields_.fail("must be an object {\"points\": […], …}");
     const bool known = attempt([&] {
-      fields_.check_keys(item, {"height", "width", "sharpness", "press", "taper", "flare", "smooth", "set",
-                                "points", "name", "closed", "direction", "breaks", "pixels", "camera",
-                                "texture", "group", "near", "vertices"});
+      fields_.check_keys(item, {"height", "width",  "sharpness", "press", "taper",  "flare",     "smooth",
+                                "set",    "gather", "points",    "name",  "closed", "direction", "breaks",
+                                "pixels", "camera", "texture",   "group", "near",   "vertices"});
     });
     Stroke& stroke = drawn.stroke;
     stroke.height = default_height_;

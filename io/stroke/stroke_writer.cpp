@@ -33,6 +33,7 @@ Json to_json(const DrawnStroke& drawn, const WriteOptions& options) {
   if (stroke.flare) item["flare"] = *stroke.flare;
   if (stroke.smooth != 1) item["smooth"] = stroke.smooth;
   if (stroke.set != Stroke{}.set) item["set"] = stroke.set;
+  if (stroke.gather) item["gather"] = *stroke.gather;
   if (stroke.closed) item["closed"] = true;
   if (const auto* on = std::get_if<PictureStroke>(&drawn.on)) {
     item["camera"] = to_json(on->picture);

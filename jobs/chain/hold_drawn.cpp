@@ -8,6 +8,7 @@
 #include "bridge/arrays/gather.h"
 #include "bridge/arrays/store_rest_state.h"
 #include "bridge/keeping/hold_lines.h"
+#include "geometry/fold/gather_lines.h"
 #include "jobs/chain/room_for_lines.h"
 #include "jobs/cloth/lost_lines.h"
 #include "jobs/cloth/pins.h"
@@ -42,6 +43,7 @@ bridge::KeepOptions options_of(const io::Scene& scene, const io::WrinkleRecord& 
   options.run.gravity = scene.simulation.gravity;
   options.line_widths = io::line_widths(record);
   options.line_presses = io::line_presses(record);
+  for (const io::WrinkleRecord::Line& line : record.lines) options.flat_lines.push_back(line.height == 0);
   if (scene.body) options.largest_turn = 0;  // it would turn into the body
   return options;
 }
@@ -99,6 +101,8 @@ class Holder {
   io::MeshFile held(const Context& context) {
     io::MeshFile file = drawn_;
     complete_garment(file, scene_.material);
+    const std::vector<geometry::Strut> threads =  // what they gather is not drawn
+        geometry::cut_undrawn_threads(file.mesh, io::gathered_lines(record_));
     SilentListener silent(context.listener);  // the search for rest warns of pins and faces
     const auto pins = find_pins(file, scene_.pins);
     const auto pressed = [&](const std::vector<double>& presses) {
@@ -110,6 +114,7 @@ class Holder {
     bridge::scatter(held.cloth.particles, file.mesh);
     physics::soften_clamps(held.cloth);
     bridge::store_rest_state(held.cloth, spring_options(file, scene_.material), file.mesh);
+    geometry::sew(file.mesh, threads);
     return file;
   }
 

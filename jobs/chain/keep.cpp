@@ -6,6 +6,7 @@
 
 #include "bridge/arrays/store_rest_state.h"
 #include "bridge/draping/standing_body.h"
+#include "geometry/fold/gather_lines.h"
 #include "io/base/lower_case.h"
 #include "io/mesh/ply_motion.h"
 #include "io/scene/relocated.h"
@@ -227,6 +228,15 @@ void note_presses(const bridge::KeepReport& report, io::WrinkleRecord record, io
   io::set_wrinkle_record(file, record);
 }
 
+/// What threads have yet to gather is no shape to keep.
+void require_drawn_in(const geometry::Mesh& mesh, const io::WrinkleRecord& record) {
+  for (const geometry::GatherThread& thread : geometry::gather_threads(mesh, io::gathered_lines(record)))
+    if (thread.draws())
+      throw std::invalid_argument("the thread along '" + record.lines[std::size_t(thread.line)].name +
+                                  "' has yet to draw it in; let the garment come to rest with it first "
+                                  "(`furrow drape`), and keep that");
+}
+
 /// From rest, with nothing that fades in any more.
 void write_kept_state(const OpenScene& open, const SceneCloth& cloth, std::optional<io::SavedState> state) {
   const std::filesystem::path& path = open.scene.output.state;
@@ -353,6 +363,7 @@ KeepReport keep_within(const KeepJob& job, Budget& budget) {
     throw std::invalid_argument(
         "there is no line to keep: draw one with `furrow wrinkle`, or name strokes in the "
         "scene's [[lines]]");
+  require_drawn_in(garment.file.mesh, report.record);
   const CrossedStart crossed = crossed_start(garment.file.mesh);
   report.lines = find_rest(job, scene, garment, report.record, context);
   const physics::CancelScope whole([] { return false; });  // one that was stopped is told of, too

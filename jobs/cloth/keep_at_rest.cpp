@@ -8,6 +8,7 @@
 #include "bridge/arrays/gather.h"
 #include "bridge/arrays/store_rest_state.h"
 #include "bridge/keeping/keep.h"
+#include "geometry/fold/gather_lines.h"
 #include "io/base/lower_case.h"
 #include "jobs/cloth/prepare_garment.h"
 #include "jobs/cloth/scene_cloth.h"
@@ -72,6 +73,9 @@ bridge::KeptShape keep_at_rest(io::MeshFile& file, const io::Scene& scene,
                                const std::vector<std::vector<int>>& pins, const WorldBody* body, double time,
                                double settled_gap, physics::SimulateState* moving, const Context& context) {
   complete_garment(file, scene.material);
+  const auto record = io::find_wrinkle_record(file);
+  const std::vector<geometry::Strut> threads =  // what they gather is not the shape as it lies
+      geometry::cut_undrawn_threads(file.mesh, record ? io::gathered_lines(*record) : std::vector<int>{});
   physics::PrestressOptions options;
   options.gravity = scene.simulation.gravity;
   options.friction = scene.simulation.friction;
@@ -86,6 +90,7 @@ bridge::KeptShape keep_at_rest(io::MeshFile& file, const io::Scene& scene,
   if (shape.turned > 0 || shape.pushed.moved > 0) bridge::scatter(cloth.particles, file.mesh);
   physics::soften_clamps(cloth);
   bridge::store_rest_state(cloth, springs, file.mesh);
+  geometry::sew(file.mesh, threads);
   if (moving) {
     moving->compensation.force.clear();
     moving->planned = false;

@@ -7,6 +7,7 @@
 
 #include "bridge/arrays/convert.h"
 #include "geometry/figure/hem_folds.h"
+#include "geometry/fold/gather_lines.h"
 #include "geometry/fold/line_height.h"
 #include "geometry/mesh/border_loops.h"
 #include "geometry/mesh/edge_metric.h"
@@ -26,6 +27,8 @@ Json line_json(const LineReport& r) {
   line["smoothed_height"] = r.smoothed_height;
   line["height"] = r.height;
   line["kept"] = r.kept ? Json(*r.kept) : Json();
+  if (r.gather) line["gather"] = *r.gather;
+  if (r.gathered) line["gathered"] = *r.gathered;
   return line;
 }
 
@@ -123,6 +126,13 @@ std::vector<LineReport> measure_lines(const io::MeshFile& file, const std::vecto
   for (std::size_t i = 0; i < now.size(); ++i)
     if (std::isfinite(now[i]))  // else its vertices went to later lines
       lines.push_back(measure_line(i, now[i], i < before.size() ? before[i] : now[i], record));
+  for (const geometry::GatherThread& thread :
+       geometry::gather_threads(file.mesh, io::gathered_lines(record)))
+    for (LineReport& line : lines)
+      if (int(line.id) == thread.line) {
+        line.gather = record.lines[line.id].gather;
+        line.gathered = *line.gather * thread.length / thread.rest_length;
+      }
   return lines;
 }
 

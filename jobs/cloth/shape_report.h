@@ -28,6 +28,7 @@ struct LineReport {
   double smoothed_height = 0;          ///< after it was drawn, or at the run's start [m]
   double height = 0;                   ///< now [m]
   std::optional<double> kept;  ///< height over smoothed_height [-]; none: it has no height of its own to keep
+  std::optional<double> gather, gathered;  ///< its thread's share of its length, as asked for and now [-]
 };
 
 /// What the cloth does to the body, and it to the cloth.

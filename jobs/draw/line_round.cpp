@@ -85,7 +85,7 @@ io::WrinkleRecord record_of(const geometry::WrinkleOptions& o,
                       {"", geometry::unset_value, geometry::unset_value, geometry::unset_value});
   for (const geometry::WrinkledLine& line : report.lines)
     record.lines.push_back({line.name, line.height, line.drawn_height, line.smoothed_height, line.base_height,
-                            line.width, line.sharpness, line.press, line.crest_height});
+                            line.width, line.sharpness, line.press, line.crest_height, line.gather});
   return record;
 }
 

@@ -27,6 +27,7 @@ Json to_json(const io::DrawnStroke& drawn) {
   if (drawn.stroke.flare) item["flare"] = *drawn.stroke.flare;
   if (drawn.stroke.smooth != 1) item["smooth"] = drawn.stroke.smooth;
   if (drawn.stroke.set != geometry::Stroke{}.set) item["set"] = drawn.stroke.set;
+  if (drawn.stroke.gather) item["gather"] = *drawn.stroke.gather;
   if (drawn.stroke.closed) item["closed"] = true;
   return item;
 }

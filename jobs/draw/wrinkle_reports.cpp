@@ -93,6 +93,7 @@ Json to_json(const geometry::WrinkleReport& r, const geometry::RestMetricAudit& 
     if (line.crest_height) item["crest_height"] = *line.crest_height;
     if (line.width) item["width"] = *line.width, item["sharpness"] = line.sharpness;
     if (line.press != 1) item["press"] = line.press;
+    if (line.gather) item["gather"] = *line.gather;
     report["lines"].push_back(std::move(item));
   }
   return report;

@@ -57,6 +57,7 @@ furrow_add_tests(geometry geometry LIBRARIES furrow::geometry SOURCES
   fold/fold_lines_test.cpp
   fold/fold_memory_test.cpp
   fold/line_height_test.cpp
+  fold/gather_lines_test.cpp
   fold/line_press_test.cpp
   fold/line_profile_test.cpp
   fold/line_region_test.cpp

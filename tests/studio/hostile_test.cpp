@@ -105,6 +105,7 @@ std::vector<Key> keys() {
           {"set", "height", first, with(no_numbers, {"2"})},
           {"set", "width", first, {"true", "\"1\"", "[]", "{}", "0", "-1", "1e300"}},
           {"set", "press", first, with(no_numbers, {"0.5", "1e7"})},
+          {"set", "gather", first, {"true", "\"1\"", "[]", "{}", "0", "0.05", "1.1", "1e300"}},
           {"set", "on", first, {"null", "1", "\"true\"", "[]"}},
           {"set", "live", and_also(first, "height", 0.01), {"null", "1", "\"true\"", "[]"}},
           {"set", "points", first, no_points},

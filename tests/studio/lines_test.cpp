@@ -55,6 +55,27 @@ TEST_CASE("studio lines: a ridge that becomes a valley is called one, unless som
   CHECK(name(1) == "ridge 7");
 }
 
+TEST_CASE("studio lines: a line that gathers has no height, its own kind of name, and is raised again") {
+  const Desk desk("gather");
+  const studio::Studio studio(desk.scene, desk.project());
+  Visitor page(studio);
+  for (const double y : {0.1, 0.2}) REQUIRE(page.ask("draw", line_at(y)).contains("done"));
+  const Json thread{{"line", 0}, {"gather", 0.8}, {"height", 0}, {"width", nullptr}};
+  REQUIRE(page.ask("set", thread).contains("done"));
+  const auto row = [&](int line) { return page.status.at("lines").at(line); };
+  CHECK(row(0).at("name") == "gather 1");
+  CHECK((row(0).at("gather") == 0.8 && row(0).at("height") == 0));
+  CHECK(page.status.at("undo") == "gather ridge 1");
+  REQUIRE(page.ask("set", {{"lines", {0, 1}}, {"height", 0.03}}).contains("done"));
+  CHECK((row(0).at("height") == 0 && row(1).at("height") == 0.03));
+  REQUIRE(page.ask("save").contains("done"));
+  CHECK(tests::saved_strokes(desk.project()).at(0).at("gather") == 0.8);
+  REQUIRE(page.ask("set", {{"line", 0}, {"gather", nullptr}, {"height", -0.01}}).contains("done"));
+  CHECK(row(0).at("name") == "valley 1");
+  CHECK(!row(0).contains("gather"));
+  REQUIRE(page.ask("set", {{"line", 0}, {"gather", nullptr}, {"sharpness", 0.5}}).contains("done"));
+}
+
 TEST_CASE(
     "studio lines: a pen that feels pressure draws heights along the line, which are the stroke's own") {
   const Desk desk("pressure");

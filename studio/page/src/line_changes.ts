@@ -8,16 +8,18 @@ import type { Studio } from "./studio";
 /** A line with a change that is not answered yet; several at once keep their signs. */
 const changed = (
   line: Line,
-  { points, width, height, ...more }: LineChange,
+  { points, width, height, gather, ...more }: LineChange,
   isOneOfSeveral: boolean,
 ): Line => ({
   ...line,
   ...more,
   ...(width !== undefined && { width: width ?? undefined }),
-  ...(height !== undefined && {
-    height: isOneOfSeveral && (line.height ?? 1) < 0 ? -height : height,
-    varies: false,
-  }),
+  ...(gather !== undefined && { gather: gather ?? undefined }),
+  ...(height !== undefined &&
+    !(isOneOfSeveral && line.gather) && {
+      height: isOneOfSeveral && (line.height ?? 1) < 0 ? -height : height,
+      varies: false,
+    }),
 });
 
 export class LineChanges implements LineActions {

@@ -10,6 +10,7 @@ export interface LineChange {
   width?: number | null;
   sharpness?: number;
   press?: number;
+  gather?: number | null;
   points?: number[][];
 }
 export interface LineActions {
@@ -28,6 +29,10 @@ export const mm = (metres: number) => `${Math.round(metres * 1000)} mm`;
 /** The width of a fold that names none, as the program chooses it. */
 export const ownWidth = (height: number) => 5 * Math.abs(height);
 
+/** How far a line that begins to be gathered is drawn in, and the height of one that is gathered no more. */
+const usualGather = 0.8,
+  usualHeight = 0.01;
+const share = (of: number) => `${Math.round(100 * of)} %`;
 /** The sharpness of a fold that names none, as rule fold draws it. */
 const usualSharpness = 0;
 
@@ -83,6 +88,9 @@ function Edit({
   const height = line.height ?? 0.01,
     sign = height < 0 ? -1 : 1;
   const set = (change: LineChange, live = false) => actions.set(index, change, live);
+  const gathers = line.gather !== undefined;
+  const raise = (side: number) =>
+    set({ height: side * (Math.abs(height) || usualHeight), ...(gathers && { gather: null }) });
   return (
     <div class="edit">
       <label for={`name-${index}`}>Name</label>
@@ -95,25 +103,45 @@ function Edit({
       />
       <span>Kind</span>
       <span class="wide" role="group" aria-label="Kind">
-        <button class="small" aria-pressed={sign > 0} onClick={() => set({ height: Math.abs(height) })}>
+        <button class="small" aria-pressed={!gathers && sign > 0} onClick={() => raise(1)}>
           Ridge
         </button>
-        <button class="small" aria-pressed={sign < 0} onClick={() => set({ height: -Math.abs(height) })}>
+        <button class="small" aria-pressed={!gathers && sign < 0} onClick={() => raise(-1)}>
           Valley
         </button>
+        <button
+          class="small"
+          title="A thread draws the line in as the cloth comes to rest"
+          aria-pressed={gathers}
+          onClick={() => !gathers && set({ gather: usualGather, height: 0, width: null })}
+        >
+          Gathers
+        </button>
       </span>
-      <Slider
-        label="Height"
-        value={Math.abs(height) * 1000}
-        min={0}
-        max={Math.max(100, Math.abs(height) * 1000)}
-        step={1}
-        text={(v, dragged) => (line.varies && !dragged ? "varies" : mm(v / 1000))}
-        change={(v, live) => set({ height: (sign * v) / 1000 }, live)}
-      />
+      {gathers ? (
+        <Slider
+          label="Drawn in to"
+          value={100 * line.gather!}
+          min={30}
+          max={100}
+          step={1}
+          text={(v) => share(v / 100)}
+          change={(v, live) => !live && set({ gather: v / 100 })}
+        />
+      ) : (
+        <Slider
+          label="Height"
+          value={Math.abs(height) * 1000}
+          min={0}
+          max={Math.max(100, Math.abs(height) * 1000)}
+          step={1}
+          text={(v, dragged) => (line.varies && !dragged ? "varies" : mm(v / 1000))}
+          change={(v, live) => set({ height: (sign * v) / 1000 }, live)}
+        />
+      )}
       <Slider
         label="Width"
-        value={(line.width ?? ownWidth(height)) * 1000}
+        value={(line.width ?? (gathers ? 0.04 : ownWidth(height))) * 1000}
         min={5}
         max={Math.max(300, (line.width ?? 0) * 1000)}
         step={1}
@@ -309,7 +337,13 @@ export function Lines({
               >
                 {line.name}
               </button>
-              <span class="much">{line.varies ? "varies" : mm(Math.abs(line.height ?? 0.01))}</span>
+              <span class="much">
+                {line.gather
+                  ? share(line.gather)
+                  : line.varies
+                    ? "varies"
+                    : mm(Math.abs(line.height ?? 0.01))}
+              </span>
               <button
                 class="small"
                 aria-label={`Delete ${line.name}`}

@@ -9,6 +9,7 @@ export interface Line {
   width?: number;
   sharpness?: number;
   press?: number;
+  gather?: number;
   closed?: boolean;
 }
 /** A closed border of the cloth: a hem, a neck, an arm hole; "top", "bottom", or a number. */

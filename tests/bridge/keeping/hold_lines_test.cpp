@@ -76,4 +76,7 @@ TEST_CASE("hold_lines: a line keeps the press that it has, and gets none beyond 
 TEST_CASE("hold_lines: what nothing carries as it lies gets the first press") {
   CHECK(Ridge(1e-4, false).hold().presses[0] == 10);
   CHECK(Ridge(1e-4, false).hold(20).presses[0] == 20);
+  Ridge flat(1e-4, false);
+  flat.options.flat_lines = {1};
+  CHECK(flat.hold().presses[0] == 1);
 }

@@ -24,6 +24,7 @@ TEST_CASE("wrinkle_record: a wrinkle record reads back as written, heights that 
       {},
       {}};
   record.lines[1].crest_height = 0.02;
+  record.lines[1].gather = 0.7;
   set_wrinkle_record(file, {});
   set_wrinkle_record(file, record);
   REQUIRE(file.comments.size() == 2);
@@ -41,6 +42,9 @@ TEST_CASE("wrinkle_record: a wrinkle record reads back as written, heights that 
   CHECK(back->lines[1].sharpness == 0.25);
   CHECK_FALSE(back->lines[0].crest_height);
   CHECK(*back->lines[1].crest_height == 0.02);
+  CHECK_FALSE(back->lines[0].gather);
+  CHECK(*back->lines[1].gather == 0.7);
+  CHECK(gathered_lines(*back) == std::vector<int>{1});
   CHECK(std::isnan(line_widths(*back)[0]));
   CHECK(line_widths(*back)[1] == 0.06);
   CHECK(line_presses(*back) == std::vector<double>{1, 30});

@@ -123,6 +123,22 @@ TEST_CASE("strokes: width, sharpness and press, in metres whatever the unit, and
   CHECK(error(R"("press": 1e999)") != "");
 }
 
+TEST_CASE("strokes: a gathered line has no height unless it names one, and comes back") {
+  const auto read = strokes(R"({"strokes": [
+    {"points": [[0, 0, 0]], "gather": 0.7}, {"points": [[0, 0, 0]], "gather": 1, "height": 0.02},
+    {"points": [[0, 0, 0]]}]})");
+  CHECK((read[0].height == 0 && *read[0].gather == 0.7));
+  CHECK((read[1].height == 0.02 && *read[1].gather == 1));
+  CHECK((read[2].height == 0.01 && !read[2].gather));
+  TemporaryFolder folder;
+  io::write_strokes(folder / "s.json", read);
+  const auto back = io::read_strokes(folder / "s.json");
+  for (std::size_t i = 0; i < 3; ++i)
+    CHECK((back[i].gather == read[i].gather && back[i].height == read[i].height));
+  CHECK(error_of_strokes(R"({"strokes": [{"points": [[0, 0, 0]], "gather": 70}]})")
+            .find("in [0.1, 1], a share of the line's length") != std::string::npos);
+}
+
 TEST_CASE("strokes: broken JSON is named with line and column") {
   CHECK(error_of_strokes("{\"strokes\": [\n  {\"points\" [[0,0,0]]}]}").starts_with("2:13: no valid JSON: "));
   CHECK(error_of_strokes("").starts_with("1:1: no valid JSON: "));

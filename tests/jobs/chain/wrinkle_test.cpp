@@ -303,6 +303,34 @@ TEST_CASE(
                     Catch::Contains("`subdivide` takes a whole number in [0, 4], not 5"));
 }
 
+TEST_CASE("wrinkle: with settle a thread gathers its line, and the ridge beside it stands", "[release]") {
+  jobs::WrinkleJob job = hung_silk();
+  auto& strokes = std::get<std::vector<io::DrawnStroke>>(job.strokes);
+  strokes.front().stroke.points = {{-0.1, 0.1, 0}, {0.1, 0.1, 0}};
+  io::DrawnStroke thread;
+  thread.stroke.name = "thread";
+  thread.stroke.height = 0;
+  thread.stroke.gather = 0.8;
+  thread.stroke.points = {{-0.15, 0.2, 0}, {0.15, 0.2, 0}};
+  strokes.push_back(thread);
+  tests::Recorder recorder;
+  const jobs::WrinkleReport report = jobs::wrinkle(job, recorder);
+  REQUIRE(report.rest);
+  CHECK(report.rest->outcome() == "at rest");
+  CHECK(report.rest->end.crossings == 0);
+  REQUIRE(report.rest->lines.size() == 2);
+  const jobs::LineReport& gathered = report.rest->lines[1];
+  REQUIRE(gathered.gathered);
+  CHECK(*gathered.gathered == Approx(0.8).epsilon(0.02));
+  CHECK(gathered.press == 1);
+  CHECK(!gathered.kept);
+  CHECK(!report.rest->lines[0].gathered);
+  REQUIRE(report.rest->lines[0].kept);
+  CHECK(*report.rest->lines[0].kept > 0.8);
+  CHECK(!recorder.warned_of("line_not_gathered"));
+  CHECK(io::gathered_lines(*io::find_wrinkle_record(report.garment)) == std::vector<int>{1});
+}
+
 TEST_CASE("drape: a line that rest loses is warned of by its name") {
   tests::Recorder recorder;
   jobs::WrinkleJob drawn = ridged_sheet();
