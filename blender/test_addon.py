@@ -222,6 +222,10 @@ check("from the body that it was made for it is brought", refusal(bpy.ops.furrow
 check_worn("brought as it was made")
 scene.furrow.made_for = None
 
+named = {name: files.line_of_layer(name, 0.01) for name in ("belly", "valley 12 mm", "ridge 20 mm", "Gather to 80 %")}
+check("layers' names say what their lines are", named == {"belly": {"height": 0.01}, "valley 12 mm": {"height": -0.012},
+                                                          "ridge 20 mm": {"height": 0.02}, "Gather to 80 %": {"gather": 0.8}})
+
 # Edges of the mesh as lines, on another object.
 n, size = 14, 0.03
 grid = bpy.data.meshes.new("sheet")

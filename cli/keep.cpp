@@ -45,10 +45,12 @@ Lines keep_lines(const Json& report) {
   };
   const auto n = std::count_if(drawn.begin(), drawn.end(), fails);
   const auto in_calm = count("may hold"), open = count("not known");
-  Lines lines{std::to_string(drawn.size() - static_cast<std::size_t>(n)) + " of " +
-              counted(drawn.size(), "line") + " will hold" +
-              (in_calm > 0 ? ", " + std::to_string(in_calm) + " more where nothing blows" : "") +
-              (open > 0 ? ", of " + std::to_string(open) + " it is not known" : "")};
+  Lines lines{drawn.empty()
+                  ? "no line has a height to keep"
+                  : std::to_string(drawn.size() - static_cast<std::size_t>(n)) + " of " +
+                        counted(drawn.size(), "line") + " will hold" +
+                        (in_calm > 0 ? ", " + std::to_string(in_calm) + " more where nothing blows" : "") +
+                        (open > 0 ? ", of " + std::to_string(open) + " it is not known" : "")};
   for (const bool failing : {true, false})  // what fails first
     for (const Json& line : drawn)
       if (fails(line) == failing)

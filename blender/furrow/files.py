@@ -88,11 +88,14 @@ def read_ply_columns(path):
 
 
 def line_of_layer(name, height):
-    """What a layer's name says of its lines' height [m]."""
+    """What a layer's name says of its lines: "gather 80 %" draws them in; others have a height [m]."""
+    share = re.search(r"gather\D*(\d+(?:\.\d+)?)\s*%", name.lower())
+    if share:
+        return {"gather": float(share[1]) / 100}
     told = re.search(r"(-?\d+(?:\.\d+)?)\s*mm", name)
     size = abs(float(told[1]) / 1000) if told else abs(height)
     valley = "valley" in name.lower() or (told and told[1].startswith("-")) or (not told and height < 0)
-    return -size if valley and "ridge" not in name.lower() else size
+    return {"height": -size if valley and "ridge" not in name.lower() else size}
 
 
 def pencil_strokes(pencil):

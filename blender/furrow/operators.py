@@ -213,9 +213,9 @@ class Wrinkle(Job, bpy.types.Operator):
     """Wrinkles the garment along the lines, and shows it as a shape key"""
     bl_idname, bl_label, key = "furrow.wrinkle", "Wrinkle", "wrinkled"
 
-    def line(self, name, height, closed, **where):
-        stroke = {"name": name, "height": height, **where}
-        if self.scene.width > 0:
+    def line(self, name, keys, closed, **where):
+        stroke = {"name": name, **keys, **where}
+        if self.scene.width > 0 and "gather" not in keys:
             stroke["width"] = self.scene.width * self.scale
         return {**stroke, "closed": True} if closed else stroke
 
@@ -224,7 +224,7 @@ class Wrinkle(Job, bpy.types.Operator):
             edges = [tuple(e.vertices) for e in self.obj.data.edges if e.select]
             if not edges:
                 raise runs.Failed("no edge of %s is selected" % self.obj.name)
-            return [self.line("edges %d" % (i + 1), self.scene.height * self.scale, closed, vertices=path)
+            return [self.line("edges %d" % (i + 1), {"height": self.scene.height * self.scale}, closed, vertices=path)
                     for i, (path, closed) in enumerate(files.chains(edges))]
         if not self.scene.pencil:
             raise runs.Failed("choose the Grease Pencil object with the strokes")
@@ -232,9 +232,9 @@ class Wrinkle(Job, bpy.types.Operator):
         for layer, points, closed in files.pencil_strokes(self.scene.pencil):
             if len(points) < 2:
                 continue
-            height = files.line_of_layer(layer, self.scene.height * self.scale)
+            keys = files.line_of_layer(layer, self.scene.height * self.scale)
             at = files.in_world(numpy.array([tuple(p) for p in points]), self.scene.pencil.matrix_world, self.scale)
-            strokes.append(self.line("%s %d" % (layer, len(strokes) + 1), height, closed, points=at.tolist()))
+            strokes.append(self.line("%s %d" % (layer, len(strokes) + 1), keys, closed, points=at.tolist()))
         if not strokes:
             raise runs.Failed("%s has no strokes in the frame that is shown" % self.scene.pencil.name)
         return strokes

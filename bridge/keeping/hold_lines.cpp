@@ -17,9 +17,7 @@ bool press_loose(const TriedPlan& tried, bool first, const KeepOptions& o, std::
   const bool all = hangs_wrong(tried.outcome) || (any && !first);
   bool raised = false;
   for (std::size_t i = 0; i < loose.size(); ++i) {
-    const auto id = std::size_t(tried.plan.lines[i].id);
-    if (id < o.flat_lines.size() && o.flat_lines[id]) continue;
-    double& press = presses[id];
+    double& press = presses[std::size_t(tried.plan.lines[i].id)];
     const auto next = next_press(press, o);
     if (!next || !(loose[i] || (all && press < o.presses.front()))) continue;
     press = *next;
@@ -42,7 +40,7 @@ HeldLines hold_lines(const geometry::Mesh& mesh, const PressedCloth& make, const
   o.bounds.gravity = o.run.gravity;
   o.bounds.work = &work;
   HeldLines held{make(o.line_presses), {}, o.line_presses};
-  LineMeter meter(mesh, {}, o.line_widths);
+  LineMeter meter(mesh, {}, o.line_widths, o.flat_lines);
   const KeepPlan plan{helped_lines(mesh, held.cloth.particles, meter, o)};
   for (const HelpedLine& line : plan.lines)
     held.presses.resize(std::max(held.presses.size(), std::size_t(line.id) + 1), 1);

@@ -69,7 +69,7 @@ struct KeepOptions {
   /// By line id: the height that was asked for [m], as line_heights() measures it less `base`; NaN, 0 or
   /// missing: that at which the line lies.
   std::vector<double> line_heights = {};
-  /// By line id, of hold_lines(): 1 for a line without a height to keep, which gets no press.
+  /// By line id: 1 for a line that is to have no height, and so has none to keep: it is not looked at.
   std::vector<char> flat_lines = {};
   bool whole = false;  ///< the rest of the garment is pressed, too, until nothing in it is unstable
 };

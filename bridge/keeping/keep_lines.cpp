@@ -288,7 +288,7 @@ KeepReport keep_lines(geometry::Mesh& mesh, physics::Cloth& cloth, const physics
   o.bounds.gravity = o.run.gravity;
   o.bounds.friction = o.run.friction;
   o.bounds.gap = o.run.contact_gap;
-  LineMeter meter(mesh, base, o.line_widths);
+  LineMeter meter(mesh, base, o.line_widths, o.flat_lines);
   physics::Cloth start = cloth;
   for (Vec3& v : start.particles.v) v.setZero();
   physics::PushOutReport pushed;

@@ -77,9 +77,11 @@ double farthest_apart(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   return most;
 }
 
-LineMeter::LineMeter(const geometry::Mesh& mesh, const std::vector<double>& base, std::vector<double> widths)
+LineMeter::LineMeter(const geometry::Mesh& mesh, const std::vector<double>& base, std::vector<double> widths,
+                     const std::vector<char>& flat)
     : shape_(mesh), widths_(std::move(widths)) {
   for (const geometry::LineHeight& h : geometry::line_heights(shape_, widths_)) {
+    if (std::size_t(h.line) < flat.size() && flat[std::size_t(h.line)]) continue;
     const bool known = std::size_t(h.line) < base.size() && std::isfinite(base[h.line]);
     const double below = known ? base[h.line] : 0;
     if (!std::isfinite(h.height)) unmeasured_.push_back(h.line);

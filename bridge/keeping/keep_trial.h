@@ -8,9 +8,10 @@ namespace furrow::bridge {
 /// Measures the heights of a garment's lines at other positions of its vertices.
 class LineMeter {
  public:
-  /// Measures the lines that have a height where the mesh lies. base: see keep_lines(); widths:
-  /// KeepOptions::line_widths.
-  LineMeter(const geometry::Mesh& mesh, const std::vector<double>& base, std::vector<double> widths);
+  /// Measures the lines that have a height where the mesh lies. base: see keep_lines(); widths, flat:
+  /// KeepOptions::line_widths, flat_lines.
+  LineMeter(const geometry::Mesh& mesh, const std::vector<double>& base, std::vector<double> widths,
+            const std::vector<char>& flat = {});
   const std::vector<int>& lines() const { return lines_; }  ///< their ids, rising
   const std::vector<int>& unmeasured() const {
     return unmeasured_;

@@ -132,7 +132,6 @@ std::vector<WrinkledLine> lines_of(std::span<const Stroke> strokes, const Folds&
         width = std::max(width, folds.heights[j].greatest_width()), sharpness = folds.curves[j].sharpness;
     lines.push_back(
         {stroke.name, stroke.height, 0, 0, 0, chains_of(chains, id), width, sharpness, stroke.press});
-    lines.back().gather = stroke.gather;
   }
   return lines;
 }
@@ -465,6 +464,7 @@ WrinkleReport fold_lines(Mesh& mesh, std::span<const Stroke> strokes, const Wrin
     observer(Stage::displaced, with_points(work, progress.displaced));
   }
   join(report, progress);
+  for (std::size_t i = 0; i < report.lines.size(); ++i) report.lines[i].gather = strokes[i].gather;
   gather_lines(work, report.lines);
   end_wrinkling(work, options, report);
   if (observer) observer(Stage::smoothed, work);

@@ -129,6 +129,8 @@ struct WrinkleRecord {
 /// Of the lines by id: widths [m] (NaN: none), and presses [-].
 std::vector<double> line_widths(const WrinkleRecord& record);
 std::vector<double> line_presses(const WrinkleRecord& record);
+/// 1 for those that are to have no height, by id.
+std::vector<char> flat_lines(const WrinkleRecord& record);
 /// The ids of the lines that a thread gathers, ascending.
 std::vector<int> gathered_lines(const WrinkleRecord& record);
 

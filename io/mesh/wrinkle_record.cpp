@@ -71,6 +71,12 @@ std::vector<double> line_presses(const WrinkleRecord& record) {
   return presses;
 }
 
+std::vector<char> flat_lines(const WrinkleRecord& record) {
+  std::vector<char> flat;
+  for (const WrinkleRecord::Line& line : record.lines) flat.push_back(line.height == 0);
+  return flat;
+}
+
 std::vector<int> gathered_lines(const WrinkleRecord& record) {
   std::vector<int> ids;
   for (std::size_t i = 0; i < record.lines.size(); ++i)

@@ -43,7 +43,7 @@ bridge::KeepOptions options_of(const io::Scene& scene, const io::WrinkleRecord& 
   options.run.gravity = scene.simulation.gravity;
   options.line_widths = io::line_widths(record);
   options.line_presses = io::line_presses(record);
-  for (const io::WrinkleRecord::Line& line : record.lines) options.flat_lines.push_back(line.height == 0);
+  options.flat_lines = io::flat_lines(record);
   if (scene.body) options.largest_turn = 0;  // it would turn into the body
   return options;
 }

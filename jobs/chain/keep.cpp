@@ -275,6 +275,7 @@ bridge::KeepOptions options_of(const KeepJob& job, const io::Scene& scene, const
   options.gust = job.gust;
   options.line_widths = io::line_widths(record);
   options.line_presses = io::line_presses(record);
+  options.flat_lines = io::flat_lines(record);
   options.line_heights = asked_heights(record);
   options.whole = job.whole;
   if (!job.balance) options.largest_turn = 0;

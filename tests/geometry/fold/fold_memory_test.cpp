@@ -2,11 +2,13 @@
 #include "geometry/fold/fold_memory.h"
 
 #include <catch2/catch.hpp>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "geometry/mesh/sheet.h"
+#include "geometry/mesh/struts.h"
 #include "tests/test_meshes.h"
 
 using namespace furrow::geometry;
@@ -117,5 +119,23 @@ TEST_CASE("fold_memory: random strokes that touch, cross or lie apart come to th
     check_same(strokes, memory);
     strokes.erase(strokes.begin() + 2);
     check_same(strokes, memory);
+  }
+}
+
+TEST_CASE("fold_memory: a line that is gathered more than before has the thread that it asks for now") {
+  const auto memory = make_fold_memory();
+  for (const std::optional<double> share : {std::optional(0.8), std::optional(0.6), std::optional<double>()}) {
+    std::vector<Stroke> strokes{ridge(0, 0.45, 1.4)};
+    strokes[0].gather = share;
+    Mesh known = equilateral_sheet(0.9, 0.9, 0.03), anew = known;
+    WrinkleOptions options;
+    const WrinkleReport report = wrinkle(anew, strokes, options);
+    options.memory = memory;
+    CHECK(wrinkle(known, strokes, options).lines[0].gather == report.lines[0].gather);
+    const std::vector<Strut> a = struts(known), b = struts(anew);
+    REQUIRE(a.size() == b.size());
+    CHECK(a.empty() == !share);
+    for (std::size_t i = 0; i < a.size(); ++i)
+      CHECK((a[i].a == b[i].a && a[i].b == b[i].b && a[i].rest_length == b[i].rest_length));
   }
 }
