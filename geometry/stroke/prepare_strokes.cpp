@@ -421,7 +421,7 @@ class Preparing {
         width = std::max(width, curve.width[i]);
       }
     }
-    if (tightest > 1)
+    if (tightest > 1 && slope > 0)  // a line of height 0 raises no cloth to gather
       warn(stroke,
            "bends with a radius below half its width of " + length_text(width) +
                ", so that the cloth gathers on the inner side; " +

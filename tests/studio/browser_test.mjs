@@ -311,6 +311,34 @@ async function drapedAsDrawn() {
   await tab.close();
 }
 
+/** A line across a hanging sheet becomes gathers; at rest it is drawn in, and what is saved has it. */
+async function gathered() {
+  const seen = await open((await studio("hung.obj", "--project", "gathered", "--pin-box=-1,0.41,-1,1,1,1")).url, 1);
+  const { tab } = seen;
+  await tab.keyboard.press("r");
+  await (await stroke(tab, [[0.3, 0.62], [0.5, 0.62], [0.7, 0.62]]))();
+  await seen.at(1);
+  await tab.keyboard.press("Escape");
+  await tab.getByRole("button", { name: "Gathers" }).click();
+  await seen.at(2);
+  assert.match(await tab.locator("aside .lines").innerText(), /gather 1[^]*80 %/);
+  await tab.getByRole("slider", { name: "Drawn in to" }).fill("70");
+  await seen.at(3);
+  await accessible(seen, "gathers");
+  const before = await still(seen);
+  await tab.keyboard.press("d");
+  await seen.at(4);
+  assert.notEqual(await seen.pixels(), before, "gathers are seen");
+  assert.doesNotMatch(await seen.words(), /of its length, not/);
+  await seen.shot("21-gathered");
+  await tab.keyboard.press("Control+s");
+  await until("saved", async () => (await seen.words()).startsWith("Saved"));
+  assert.deepEqual(strokesIn("gathered").map((s) => [s.height, s.gather]), [[0, 0.7]]);
+  replay("gathered");
+  assert.deepEqual(seen.faults, []);
+  await tab.close();
+}
+
 /** Where its scene says that the line learns nothing, it is draped flat, which is said; a button goes back and keeps it. */
 async function drapedFlat() {
   writeFileSync(join(scratch, "ridge.json"),
@@ -408,6 +436,7 @@ await run(async () => {
   await sheet();
   await partFreed();
   await drapedAsDrawn();
+  await gathered();
   await drapedFlat();
   await broughtToAnother();
 });

@@ -173,3 +173,17 @@ TEST_CASE("prepare_strokes: a ring around a tube is closed, and a point is no li
   CHECK((curve.rise[0] == 0 && curve.rise[1] == 0));
   CHECK_THROWS_AS(prepare(sheet(), {line({{0, 0.2, 0}})}), ContentError);
 }
+
+TEST_CASE("prepare_strokes: a narrow bend is told of a fold, and not of a line that raises no cloth") {
+  std::vector<Point> ring;
+  for (int i = 0; i < 40; ++i)
+    ring.emplace_back(0.03 * std::cos(i * std::numbers::pi / 20),
+                      0.2 + 0.03 * std::sin(i * std::numbers::pi / 20), 0);
+  for (const double height : {0.01, 0.0}) {
+    Stroke stroke = line(ring, height);
+    stroke.closed = true;
+    stroke.width = 0.08;
+    stroke.smooth = 0;
+    CHECK(warns(prepare(sheet(), {stroke}), "bends with a radius below half its width") == (height > 0));
+  }
+}
