@@ -325,15 +325,15 @@ async function gathered() {
   await tab.getByRole("slider", { name: "Drawn in to" }).fill("70");
   await seen.at(3);
   await accessible(seen, "gathers");
+  await tab.keyboard.press("Control+s");
+  await until("saved", async () => (await seen.words()).startsWith("Saved"));
+  assert.deepEqual(strokesIn("gathered").map((s) => [s.height, s.gather]), [[0, 0.7]]);
   const before = await still(seen);
   await tab.keyboard.press("d");
   await seen.at(4);
   assert.notEqual(await seen.pixels(), before, "gathers are seen");
   assert.doesNotMatch(await seen.words(), /of its length, not/);
   await seen.shot("21-gathered");
-  await tab.keyboard.press("Control+s");
-  await until("saved", async () => (await seen.words()).startsWith("Saved"));
-  assert.deepEqual(strokesIn("gathered").map((s) => [s.height, s.gather]), [[0, 0.7]]);
   replay("gathered");
   assert.deepEqual(seen.faults, []);
   await tab.close();
