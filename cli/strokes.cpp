@@ -189,7 +189,8 @@ void add_strokes(CLI::App& sub, StrokesArguments& a) {
       "the "
       "line as drawn, in tenths of the width, 0: none, NAME.set=VALUE, the share of its angles that becomes "
       "rest "
-      "angle [0, 1]");
+      "angle [0, 1]; NAME.gather=VALUE, the share of its length that a thread draws it in to [0.1, 1], or "
+      "none");
   several("--rename", a.rename, "NAME=OTHER");
   sub.add_option(
       "--order", a.order,

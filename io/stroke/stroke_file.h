@@ -67,7 +67,8 @@ void move_stroke(DrawnStroke& stroke, std::span<const double> by);
 ///
 /// \details json is
 ///     {"strokes": [{"name": "…", "height": 0.02, "width": 0.06, "sharpness": 0.5, "press": 1,
-///                   "taper": 0.05, "flare": true, "smooth": 1, "set": 0.5, "gather": 0.7, "closed": false, …}, …]}
+///                   "taper": 0.05, "flare": true, "smooth": 1, "set": 0.5, "gather": 0.7, "closed": false,
+///                   …}, …]}
 /// "height" and "width" may be lists with a number for each point, "taper" one of two lengths.
 /// Each stroke must have one of these (a closed stroke at least three items); the other keys may be missing.
 /// - "points": [[x, y, z], …], with "direction": [x, y, z] and "breaks": [index, …];

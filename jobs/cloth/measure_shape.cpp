@@ -126,8 +126,7 @@ std::vector<LineReport> measure_lines(const io::MeshFile& file, const std::vecto
   for (std::size_t i = 0; i < now.size(); ++i)
     if (std::isfinite(now[i]))  // else its vertices went to later lines
       lines.push_back(measure_line(i, now[i], i < before.size() ? before[i] : now[i], record));
-  for (const geometry::GatherThread& thread :
-       geometry::gather_threads(file.mesh, io::gathered_lines(record)))
+  for (const geometry::GatherThread& thread : geometry::gather_threads(file.mesh, io::gathered_lines(record)))
     for (LineReport& line : lines)
       if (int(line.id) == thread.line) {
         line.gather = record.lines[line.id].gather;

@@ -198,6 +198,10 @@ TEST_CASE("strokes: width, sharpness, press and order are set, and the mesh carr
   const Run again = run_furrow("strokes --json " + wall.wrinkled + " --change up.width=none -o " + edited);
   CHECK_FALSE(json::parse(again.out)["strokes"][1].contains("width"));
   CHECK(json::parse(again.out)["strokes"][1]["press"] == 10);
+  const Run thread = run_furrow("strokes --json " + wall.wrinkled + " --change up.gather=0.7 -o " + edited);
+  CHECK(json::parse(thread.out)["strokes"][1]["gather"] == 0.7);
+  const Run none = run_furrow("strokes --json " + edited + " --change up.gather=none -o " + edited);
+  CHECK_FALSE(json::parse(none.out)["strokes"][1].contains("gather"));
   // The press has no effect on cross springs.
   const Run idle = run_furrow("simulate " + wall.wrinkled + " --membrane paper --seconds 0.001 -o " +
                               (wall.scratch / "s.ply"));
@@ -208,8 +212,8 @@ TEST_CASE("strokes: width, sharpness, press and order are set, and the mesh carr
   for (const std::string flags :
        {"--change up.width=0", "--change up.sharpness=1.5", "--change up.press=0.1",
         "--change up.flare=maybe", "--change up.taper=-1", "--change up.set=2", "--change up.smooth=-1",
-        "--order up,up", "--order nobody", "--change up.width=0.1 --change up.sharpness=2", "--change up=0.1",
-        "--change up.heigth=0.1"})
+        "--change up.gather=2", "--order up,up", "--order nobody",
+        "--change up.width=0.1 --change up.sharpness=2", "--change up=0.1", "--change up.heigth=0.1"})
     CHECK(run_furrow("strokes " + wall.strokes + " " + flags + " -o " + edited).exit_code != 0);
 }
 

@@ -124,7 +124,8 @@ TEST_CASE("fold_memory: random strokes that touch, cross or lie apart come to th
 
 TEST_CASE("fold_memory: a line that is gathered more than before has the thread that it asks for now") {
   const auto memory = make_fold_memory();
-  for (const std::optional<double> share : {std::optional(0.8), std::optional(0.6), std::optional<double>()}) {
+  for (const std::optional<double> share :
+       {std::optional(0.8), std::optional(0.6), std::optional<double>()}) {
     std::vector<Stroke> strokes{ridge(0, 0.45, 1.4)};
     strokes[0].gather = share;
     Mesh known = equilateral_sheet(0.9, 0.9, 0.03), anew = known;
