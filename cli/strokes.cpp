@@ -125,7 +125,7 @@ Lines strokes_lines(const Json& report) {
     const std::string unit = text_of(stroke, "unit");
     std::string line = (text_of(stroke, "name").empty() ? "(no name)" : text_of(stroke, "name")) +
                        ": height " + length(stroke, "height");
-    if (stroke.contains("gather")) line += ", gathered to " + per_cent(value_of(stroke, "gather"));
+    if (stroke.contains("gather")) line += ", gather to " + per_cent(value_of(stroke, "gather"));
     if (stroke.contains("width")) line += ", width " + length(stroke, "width");
     if (stroke.contains("length_on_garment"))
       line += ", " + length(stroke, "length_on_garment") + " long on the garment";

@@ -200,9 +200,12 @@ Lines wrinkle_lines(const Json& report) {
   const std::size_t most = 4;
   for (std::size_t i = 0; i < std::min(most, drawn.size()); ++i) {
     const Json& line = drawn[i];
-    const std::string gather =
-        line.contains("gather") ? ": gathered to " + per_cent(value_of(line, "gather")) + ", " : ": ";
-    const std::string asked = name_of_line(line) + gather + "asked " + length(line, "height");
+    if (line.contains("gather")) {
+      lines.push_back(name_of_line(line) + ": has a thread of " + per_cent(value_of(line, "gather")) +
+                      " of its length, which draws it in as the cloth comes to rest");
+      if (value_of(line, "height") == 0) continue;
+    }
+    const std::string asked = name_of_line(line) + ": asked " + length(line, "height");
     lines.push_back(line.contains("crest_height") ? asked + ", " + length(line, "crest_height") +
                                                         " at the crest, " + length(line, "width") + " wide"
                                                   : asked + ", drawn " + length(line, "drawn_height") +

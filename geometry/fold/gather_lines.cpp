@@ -56,53 +56,54 @@ void sew_along(const Mesh& mesh, const std::vector<Index<Vertex>>& chain, double
   }
 }
 
-bool is_same(const Strut& s, const Strut& t) {
-  return s.a == t.a && s.b == t.b && s.rest_length == t.rest_length && s.stiffness == t.stiffness;
+/// The line, of these, whose thread a strut is a stitch of; -1: none. Both ends are on lines, for a later
+/// line may own one of them.
+int line_of_stitch(const Strut& s, const auto& line_of, std::span<const int> lines) {
+  const int a = line_of[s.a], b = line_of[s.b];
+  if (s.rest_length <= tie_length || a < 0 || b < 0) return -1;
+  for (const int line : {a, b})
+    if (std::binary_search(lines.begin(), lines.end(), line)) return line;
+  return -1;
 }
 
 }  // namespace
 
-std::size_t gather_lines(Mesh& mesh, std::span<const WrinkledLine> lines) {
+void gather_lines(Mesh& mesh, std::span<const WrinkledLine> lines) {
   std::vector<Strut> threads;
   for (const WrinkledLine& line : lines)
     if (line.gather && line.width)
       for (const auto& chain : line.chains) sew_along(mesh, chain, *line.width / 2, *line.gather, threads);
   sew(mesh, threads);
-  return threads.size();
 }
 
 std::vector<GatherThread> gather_threads(const Mesh& mesh, std::span<const int> lines) {
   std::vector<GatherThread> threads;
-  const auto line = find_map(mesh, attribute::line);
-  if (!line || lines.empty()) return threads;
+  const auto line_of = find_map(mesh, attribute::line);
+  if (!line_of || lines.empty()) return threads;
   for (int id : lines) threads.push_back({id, {}});
   for (const Strut& s : struts(mesh)) {
-    if (s.rest_length <= tie_length) continue;
-    for (const Vertex end : {s.a, s.b}) {
-      const auto at = std::lower_bound(lines.begin(), lines.end(), (*line)[end]);
-      if (at == lines.end() || *at != (*line)[end]) continue;
-      GatherThread& thread = threads[std::size_t(at - lines.begin())];
-      thread.struts.push_back(s);
-      thread.rest_length += s.rest_length;
-      thread.length += distance(mesh, s.a, s.b);
-      break;
-    }
+    const auto at = std::ranges::find(threads, line_of_stitch(s, *line_of, lines), &GatherThread::line);
+    if (at == threads.end()) continue;
+    at->struts.push_back(s);
+    at->rest_length += s.rest_length;
+    at->length += distance(mesh, s.a, s.b);
   }
   std::erase_if(threads, [](const GatherThread& t) { return t.struts.empty(); });
   return threads;
 }
 
 std::vector<Strut> cut_undrawn_threads(Mesh& mesh, std::span<const int> lines) {
-  std::vector<Strut> cut, left = struts(mesh);
+  std::vector<int> undrawn;
   for (const GatherThread& thread : gather_threads(mesh, lines))
-    for (const Strut& s : thread.struts)
-      if (const auto at =
-              std::find_if(left.begin(), left.end(), [&](const Strut& t) { return is_same(s, t); });
-          thread.draws() && at != left.end()) {
-        cut.push_back(s);
-        left.erase(at);
-      }
-  if (!cut.empty()) set_struts(mesh, left);
+    if (thread.draws()) undrawn.push_back(thread.line);
+  if (undrawn.empty()) return {};
+  const auto line_of = find_map(mesh, attribute::line).value();
+  std::vector<Strut> cut, left;
+  for (const Strut& s : struts(mesh)) {
+    const int line = line_of_stitch(s, line_of, lines);
+    (std::ranges::binary_search(undrawn, line) ? cut : left).push_back(s);
+  }
+  set_struts(mesh, left);
   return cut;
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,9 +11,8 @@ namespace furrow::geometry {
 /// Sews a thread along each line with a WrinkledLine::gather: struts from stitch to stitch, half the line's
 /// width apart, of so much of the length that the cloth at rest has between them. The cloth between two
 /// stitches has room to buckle, so a line that is drawn in gathers it. A stitch is a vertex of the line's
-/// chain. The struts that the mesh has stay. Returns how many were sewn. Cost: O(vertices of the lines), and
-/// a sort.
-std::size_t gather_lines(Mesh& mesh, std::span<const WrinkledLine> lines);
+/// chain. The struts that the mesh has stay. Cost: O(vertices of the lines), and a sort.
+void gather_lines(Mesh& mesh, std::span<const WrinkledLine> lines);
 
 /// A gathered line's thread as it lies.
 struct GatherThread {
@@ -24,8 +22,8 @@ struct GatherThread {
   bool draws() const { return length > 1.02 * rest_length; }  ///< it has yet to draw its line in
 };
 
-/// The threads of these lines (ids, ascending): struts with length between vertices of which one is the
-/// line's. Lines without are left out. O(struts log lines).
+/// The threads of these lines (ids, ascending): struts with length between vertices of lines, of which one at
+/// least is that line's. Lines without are left out. O(struts x lines).
 std::vector<GatherThread> gather_threads(const Mesh& mesh, std::span<const int> lines);
 
 /// Takes off, and returns, the struts of those lines' threads that have yet to draw their line in: that are

@@ -27,10 +27,9 @@ struct PreparedStrokes {
 /// is steeper than 45 degrees, and where ridge and valley are nearer than a width. Throws as trace_stroke(),
 /// and ContentError for a stroke without length and for numbers that are not one a point. \details Width of a
 /// stroke that names none: 5 |k|, at most the distance to the nearest line of the same sign where the two run
-/// side by side, at least the less of 4 h and 7.5 |k|; of a
-/// gathered one without height 40 mm, and at most an eighth of its length. Rise: 1.5 widths and at most 0.45
-/// of the line at an end inside the cloth, 0 at a border; with a flare 0.75 of the line. O(points x faces
-/// around), and O(points^2) over pairs of lines.
+/// side by side, at least the less of 4 h and 7.5 |k|; of a gathered one without height 40 mm, and at most an
+/// eighth of its length. Rise: 1.5 widths and at most 0.45 of the line at an end inside the cloth, 0 at a
+/// border; with a flare 0.75 of the line. O(points x faces around), and O(points^2) over pairs of lines.
 PreparedStrokes prepare_strokes(const Mesh& mesh, std::span<const Stroke> strokes,
                                 const PrepareOptions& options);
 

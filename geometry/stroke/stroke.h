@@ -39,8 +39,8 @@ struct Stroke {
   std::optional<bool> flare = {};  ///< it rises from end to end; none: if just one end lies on a border
   double smooth = 1;               ///< of the line as drawn, in tenths of the width [-]; [0, 10]; 0: none
   double set = 0.5;                ///< how much of the fold's angles becomes rest angle [-]; [0, 1]
-  /// A thread along it, of so much of its length, draws it in as it comes to rest [-]; [0.1, 1]. The width is
-  /// that of one gather along the line, two stitches. None: it has no thread.
+  /// A thread runs along it, and draws it in to this share of its length as the cloth comes to rest [-];
+  /// [0.1, 1]. The width is then that of one gather, which is two stitches long. None: it has no thread.
   std::optional<double> gather = {};
 };
 

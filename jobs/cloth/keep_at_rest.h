@@ -16,9 +16,9 @@ bool keeps_first_shape(const io::Scene& scene);
 /// on a line of pins is first turned about it into balance, by at most 0.2 rad; what is nearer to the body
 /// than the gap is first brought out to it. settled_gap: at which it has rested on the body so far [m]; 0: on
 /// none. `moving`: it is in motion; it keeps its velocities, and no force of earlier lines fades in any more,
-/// for the shape bears itself. Threads that have yet to draw a line in
-/// are no load, and draw it in afterwards. Warns of a shape that is not stable or that no rest state
-/// balances. Throws as bridge::keep_shape() and bridge::gather() do.
+/// for the shape bears itself. Threads that have yet to draw a line in are no load, and draw it in
+/// afterwards. Warns of a shape that is not stable or that no rest state balances. Throws as
+/// bridge::keep_shape() and bridge::gather() do.
 bridge::KeptShape keep_at_rest(io::MeshFile& file, const io::Scene& scene,
                                const std::vector<std::vector<int>>& pins, const WorldBody* body, double time,
                                double settled_gap, physics::SimulateState* moving, const Context& context);

@@ -25,7 +25,9 @@ std::string words_of_loss(const LineReport& line) {
   return text.str();
 }
 
-void warn_of_gathers(const std::vector<LineReport>& lines, std::vector<Warning>& warnings) {
+/// A warning of each line that its thread did not draw in as asked.
+std::vector<Warning> unmet_gathers(const std::vector<LineReport>& lines) {
+  std::vector<Warning> warnings;
   for (const LineReport& line : lines) {
     if (!line.gathered || std::abs(*line.gathered / *line.gather - 1) <= gathered_to) continue;
     const std::string name = line.name.value_or(std::to_string(line.id));
@@ -36,6 +38,7 @@ void warn_of_gathers(const std::vector<LineReport>& lines, std::vector<Warning>&
                      name, 100 * *line.gathered, 100 * *line.gather),
          name, "`fabric`"});
   }
+  return warnings;
 }
 
 }  // namespace
@@ -49,8 +52,7 @@ std::vector<Warning> lost_lines(const io::Scene& scene, const std::vector<LineRe
     if (++lost == 1) first = line.name.value_or(std::to_string(line.id));
     if (lost <= most_told) told += (told.empty() ? "" : ", ") + name + " " + words_of_loss(line);
   }
-  std::vector<Warning> warnings;
-  warn_of_gathers(lines, warnings);
+  std::vector<Warning> warnings = unmet_gathers(lines);
   if (lost == 0) return warnings;
   if (lost > most_told) told += ", and " + std::to_string(lost - most_told) + " more";
   warnings.push_back(

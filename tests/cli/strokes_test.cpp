@@ -200,7 +200,7 @@ TEST_CASE("strokes: width, sharpness, press and order are set, and the mesh carr
   CHECK(json::parse(again.out)["strokes"][1]["press"] == 10);
   const Run thread = run_furrow("strokes --json " + wall.wrinkled + " --change up.gather=0.7 -o " + edited);
   CHECK(json::parse(thread.out)["strokes"][1]["gather"] == 0.7);
-  CHECK(run_furrow("strokes " + edited).out.find("gathered to 70 %") != std::string::npos);
+  CHECK(run_furrow("strokes " + edited).out.find("gather to 70 %") != std::string::npos);
   const Run none = run_furrow("strokes --json " + edited + " --change up.gather=none -o " + edited);
   CHECK_FALSE(json::parse(none.out)["strokes"][1].contains("gather"));
   // The press has no effect on cross springs.

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "geometry/mesh/sheet.h"
+#include "geometry/mesh/struts.h"
 #include "io/scene/scene.h"
 #include "jobs/chain/wrinkle.h"
 #include "physics/base/progress.h"
@@ -321,4 +322,18 @@ TEST_CASE("keep: help that excludes help is refused") {
   job.help = false;
   tests::Recorder recorder;
   CHECK_THROWS_AS(jobs::keep(job, recorder), std::invalid_argument);
+}
+
+TEST_CASE("keep: a thread that has yet to draw its line in is no shape to keep, and is named") {
+  jobs::KeepJob job = hung_ridge();
+  auto& stroke = job.scene.memory.strokes["ridge"].front().stroke;
+  stroke.height = 0;
+  stroke.gather = 0.8;
+  tests::Recorder recorder;
+  CHECK_THROWS_WITH(jobs::keep(job, recorder),
+                    Catch::Contains("'ridge'") && Catch::Contains("`furrow drape`"));
+  stroke.gather = 1;  // it is as long as it is
+  const jobs::KeepReport kept = jobs::keep(job, recorder);
+  CHECK(kept.lines.lines.empty());
+  CHECK(geometry::struts(kept.garment.mesh).size() > 2);
 }

@@ -6,8 +6,11 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <thread>
+#include <utility>
 
+#include "geometry/mesh/edge_metric.h"
 #include "geometry/mesh/sheet.h"
+#include "geometry/mesh/struts.h"
 #include "io/mesh/mesh_file.h"
 #include "jobs/draw/recorded_drawing.h"
 #include "jobs/mesh/transfer.h"
@@ -329,6 +332,24 @@ TEST_CASE("wrinkle: with settle a thread gathers its line, and the ridge beside 
   CHECK(*report.rest->lines[0].kept > 0.8);
   CHECK(!recorder.warned_of("line_not_gathered"));
   CHECK(io::gathered_lines(*io::find_wrinkle_record(report.garment)) == std::vector<int>{1});
+}
+
+TEST_CASE("wrinkle: kept as drawn, a thread is no load, and draws its line in afterwards") {
+  jobs::WrinkleJob job = hung_silk();
+  job.keep = std::exchange(job.settle, std::nullopt);
+  auto& stroke = std::get<std::vector<io::DrawnStroke>>(job.strokes).front().stroke;
+  tests::Recorder recorder;
+  const jobs::WrinkleReport plain = jobs::wrinkle(job, recorder);
+  stroke.gather = 0.8;
+  const jobs::WrinkleReport gathered = jobs::wrinkle(job, recorder);
+  CHECK(tests::positions(gathered.garment) == tests::positions(plain.garment));
+  CHECK(geometry::rest_lengths(gathered.garment.mesh) == geometry::rest_lengths(plain.garment.mesh));
+  const std::vector<geometry::Strut> thread = geometry::struts(gathered.garment.mesh);
+  CHECK(geometry::struts(plain.garment.mesh).empty());
+  REQUIRE(thread.size() > 2);
+  double length = 0;
+  for (const geometry::Strut& s : thread) length += s.rest_length;
+  CHECK(length < 0.85 * 0.2);
 }
 
 TEST_CASE("drape: a line that rest loses is warned of by its name") {
