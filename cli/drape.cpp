@@ -188,6 +188,17 @@ void add_placed(Lines& lines, const Json& placed) {
 }
 
 /// Of one garment on a body.
+void add_touches(Lines& lines, const Json& report) {
+  if (!report.contains("touches")) return;
+  std::size_t i = 0;
+  for (const Json& t : list_of(report, "touches"))
+    lines.push_back(fmt::format("touch {} ({}): moved {} vertices by up to {:.1f} mm{}", ++i,
+                                text_of(t, "kind"), count_of(t, "vertices"), 1000 * value_of(t, "moved"),
+                                !std::isfinite(value_of(t, "remains"))
+                                    ? ""
+                                    : fmt::format(", {:.0f} % of it remain", 100 * value_of(t, "remains"))));
+}
+
 void add_draped(Lines& lines, const Json& report) {
   const Json& levels = list_of(report, "levels");
   const long long vertices = levels.empty() ? 0 : count_of(levels.back(), "vertices");
@@ -207,6 +218,7 @@ void add_draped(Lines& lines, const Json& report) {
                     length(table_of(table_of(report, "fit"), "distance"), "min") + " at the nearest place; " +
                     std::to_string(count_of(report, "touching")) + " vertices touch the body");
   add_placed(lines, table_of(report, "placed"));
+  add_touches(lines, report);
   add_starts(lines, report);
   add_fit_lines(lines, table_of(report, "fit"));
   if (const Json& contact = table_of(report, "self_contact"); contact.contains("crossings_without"))

@@ -20,6 +20,7 @@ if(FURROW_SANITIZE)
       -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
   target_compile_options(furrow_options INTERFACE $<BUILD_INTERFACE:${furrow_sanitizers}>)
   target_link_options(furrow_options INTERFACE $<BUILD_INTERFACE:${furrow_sanitizers}>)
+  target_compile_definitions(furrow_options INTERFACE $<BUILD_INTERFACE:FURROW_SANITIZED>)
 endif()
 
 # What spends its time in the libraries and not in itself (the program, the tests) is compiled faster, not better.

@@ -242,6 +242,16 @@ Json Session::drape(const Json&) {
   return {{"outcome", rest.outcome}, {"remarks", rest.remarks}, {"lost", lost_}};
 }
 
+Json Session::touch(const Json& body) {
+  require_brought("touch");
+  if (!strokes_on(project_->now().drawing).empty())
+    throw Refused("touch: the lines that were drawn are not at rest yet; drape the cloth first");
+  if (!body.contains("touch") || !body.at("touch").is_object()) throw Refused("touch: is no touch");
+  const jobs::TouchedSketch touched = jobs::touch_sketch(sketch_, body.at("touch"), *this);
+  take_result("touched", touched.kind, touched.file, nullptr);
+  return {{"moved", touched.moved}, {"balances", touched.balances}};
+}
+
 void Session::require_brought(const std::string& what) const {
   if (project_->now().drawing.contains("made_for"))
     throw Refused(what +

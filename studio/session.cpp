@@ -53,6 +53,7 @@ const std::map<std::string, Session::Does>& Session::intentions() {
                                                {"pin", &Session::pin},
                                                {"attach", &Session::attach},
                                                {"drape", &Session::drape},
+                                               {"touch", &Session::touch},
                                                {"keep", &Session::keep},
                                                {"play", &Session::play},
                                                {"undo", &Session::undo},

@@ -78,6 +78,7 @@ class Session : jobs::Listener {
   Json pin(const Json& body);
   Json attach(const Json& body);
   Json drape(const Json& body);
+  Json touch(const Json& body);
   Json keep(const Json& body);
   Json play(const Json& body);
   Json fit(const Json& body);

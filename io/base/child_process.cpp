@@ -20,7 +20,7 @@
 namespace furrow::io {
 namespace {
 
-#ifdef __SANITIZE_ADDRESS__
+#ifdef FURROW_SANITIZED
 constexpr bool limit_memory = false;
 #else
 constexpr bool limit_memory = true;

@@ -16,6 +16,7 @@
 #include "jobs/rest/drape_layers.h"
 #include "jobs/rest/drape_remarks.h"
 #include "jobs/rest/made_for.h"
+#include "jobs/rest/touch_garment.h"
 #include "physics/base/cancel_scope.h"
 
 namespace furrow::jobs {
@@ -47,6 +48,7 @@ void check_layers(const DrapeJob& job, const io::Scene& scene) {
   if (s.plain) leave_out("`plain`");
   if (s.loose == LooseUse::drop) leave_out("`loose=drop`");
   if (s.bending_friction > 0) leave_out("`bending_friction`");
+  if (!s.touches.empty() || !s.touch_file.empty()) leave_out("`touches`");
   if (!s.animation.empty()) leave_out("`animation`");
   if (scene.starts > 1) leave_out("`starts`");
   if (s.self_contact == SelfContactUse::off)
@@ -123,7 +125,7 @@ void check(const DrapeJob& job, const GarmentScenes& all, const io::Scene& scene
   if (!animation.empty() && !io::animation_format(s.animation))
     throw std::invalid_argument(animation + ": the ending names no animation; choose pc2, mdd or glb");
   check_folder(animation);
-  std::vector<std::string> inputs{scene.garment.string(), s.made_for.string()};
+  std::vector<std::string> inputs{scene.garment.string(), s.made_for.string(), s.touch_file.string()};
   if (scene.body) inputs.push_back(scene.body->mesh.string());
   inputs.insert(inputs.end(), job.more_inputs.begin(), job.more_inputs.end());
   std::vector<std::string> outputs{output, animation};
@@ -281,6 +283,22 @@ DrapeJobReport drape_all(const DrapeJob& job, Listener& listener) {
 }
 
 }  // namespace
+
+Touched touch(const DrapeJob& job, Listener& listener) {
+  const GarmentScenes all = garment_scenes(job);
+  const OpenScene open = open_scene(job, all, listener);
+  const Context context{open.frame, listener, &job.scene.memory};
+  std::optional<BodyCollider> body;
+  if (open.scene.body)
+    body.emplace(load_body(*open.scene.body, context, tolerance_for(open.scene.simulation.contact_gap)));
+  const BodyCollider* const on = body ? &*body : nullptr;
+  GivenGarment given = read_given(open.scene, on, job.settings, false, context);
+  const double gap = gap_of(given.scene, on, given.file.mesh, context);
+  Touched touched;
+  touched.touches = touch_garment(given, on, job.settings, gap, context);
+  touched.file = std::move(given.file);
+  return touched;
+}
 
 DrapeJobReport drape(const DrapeJob& job, Listener& listener) {
   Budget budget("drape", job.budget, listener);

@@ -9,6 +9,7 @@
 
 #include "bridge/draping/drape.h"
 #include "bridge/draping/fit_report.h"
+#include "geometry/fold/touch.h"
 #include "jobs/base/ends.h"
 #include "jobs/cloth/shape_report.h"
 
@@ -35,6 +36,18 @@ enum class LooseUse {
   fall   ///< they are draped as the rest is: they come to lie on cloth, with contact, or fall
 };
 
+/// A touch, and what it came to.
+struct TouchReport {
+  geometry::Touch touch;
+  std::size_t vertices = 0;  ///< that it took hold of
+  double moved = 0;          ///< the farthest way of one of them, the cloth around at rest [m]
+  bool balances = false;     ///< it came to rest there
+  /// Share of its change of shape that the garment at rest has kept [-]; none: it changed next to nothing.
+  std::optional<double> remains;
+  std::vector<physics::Vec3> before = {}, after = {};  ///< places of all vertices [m]
+  std::vector<char> held = {};                         ///< by vertex: it took hold of it
+};
+
 /// What draping knows beyond a scene.
 struct DrapeSettings {
   bool plain = false;                                    ///< paper 2's own scheme
@@ -52,6 +65,8 @@ struct DrapeSettings {
   std::filesystem::path animation;  ///< of the finest level, a frame an iteration; empty: none
   std::filesystem::path made_for;   ///< body that the garment lies about; empty: the scene's
   std::optional<double> gap;  ///< to the body, whatever edges and field need [m]; > 0; none: they raise it
+  std::vector<geometry::Touch> touches = {};  ///< done to the garment before it comes to rest
+  std::filesystem::path touch_file;           ///< with more of them (io/stroke/touch_file.h); empty: none
 };
 
 /// A garment to be put on the scene's body, hung from its pins, or both, under its material and gravity.
@@ -174,6 +189,7 @@ struct Draped {
   int refinements = 0;                ///< Loop subdivisions of the garment as it was given
   std::optional<double> hem_height;   ///< mean y of the lowest border [m]; none: there is no border
   std::optional<DrapeStarts> starts;  ///< none: there was one
+  std::vector<TouchReport> touches;   ///< in their order
   std::optional<Placed> placed;       ///< none: it was draped where it lay
   DrapeForces forces;                 ///< none of a garment that was cancelled
   double angle_defect = 0;  ///< how knobbly it rests: sum over inner vertices over the area [rad/m^2]
@@ -272,6 +288,15 @@ std::filesystem::path layer_output(const std::filesystem::path& output, const st
 /// std::invalid_argument for a job that cannot be, geometry::ContentError for files that cannot be used,
 /// physics::Cancelled (BudgetSpent, jobs/base/budget.h) before anything was found.
 DrapeJobReport drape(const DrapeJob& job, Listener& listener);
+
+/// A garment that was touched.
+struct Touched {
+  io::MeshFile file;  ///< [m], y up
+  std::vector<TouchReport> touches;
+};
+/// The touches of a drape of one garment alone: cloth that they do not reach stays where it lies. Writes
+/// nothing. Throws as drape(), and as touch_garment() does.
+Touched touch(const DrapeJob& job, Listener& listener);
 
 /// The report for programs, and what the command line prints, without the names of the files written.
 Json to_json(const DrapeJobReport& report);

@@ -18,6 +18,7 @@
 #include "jobs/rest/fall_watch.h"
 #include "jobs/rest/garment_maker.h"
 #include "jobs/rest/loose_parts.h"
+#include "jobs/rest/touch_garment.h"
 #include "physics/base/cancel_scope.h"
 #include "physics/base/progress.h"
 
@@ -263,9 +264,10 @@ Draped choose_start(Draped best, int count, const Start& start, const Context& c
 
 Draped drape_garment(const io::Scene& asked, const BodyCollider* body, const DrapeSettings& s, bool choose,
                      const Context& context) {
-  const GivenGarment given = read_given(asked, body, s, choose, context);
+  GivenGarment given = read_given(asked, body, s, choose, context);
   const io::Scene& scene = given.scene;
   const double gap = s.gap.value_or(0) > 0 ? *s.gap : gap_of(scene, body, given.file.mesh, context);
+  std::vector<TouchReport> touches = touch_garment(given, body, s, gap, context);
   DrapePlan plan{scene, body, s, given.file, drape_options_of(scene, s, gap), given.places()};
   plan.options.interrupted = [&context] { return context.listener.cancelled_by_user(); };
   plan.options.soft_start = soft_start_of(given.file, !scene.pins.empty());
@@ -284,6 +286,8 @@ Draped drape_garment(const io::Scene& asked, const BodyCollider* body, const Dra
   Draped draped = start(0, context);
   if (count > 1) draped = choose_start(std::move(draped), count, start, context);
   if (given.placed) draped.placed = given.placed->report;
+  measure_remains(draped.file.mesh, touches);
+  draped.touches = std::move(touches);
   geometry::drop_uniform_indices(draped.file.mesh);
   return draped;
 }

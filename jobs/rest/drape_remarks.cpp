@@ -12,6 +12,7 @@
 #include "jobs/rest/drape_starts.h"
 #include "jobs/rest/fit.h"
 #include "jobs/rest/made_for.h"
+#include "jobs/rest/touch_garment.h"
 
 namespace furrow::jobs {
 namespace {
@@ -97,6 +98,18 @@ void remark_on_start(const Draped& d, Remarks& say) {
       "lies up to {} inside the body as it is given ({} of {} vertices were brought out): if it was made "
       "for another body, name that one with `made_for`, and it is brought here",
       geometry::length_text(pushed.farthest - d.gap), pushed.moved, d.report.levels.front().vertices);
+}
+
+/// Touches that the garment at rest has not kept.
+void remark_on_touches(const Draped& d, Remarks& say) {
+  constexpr double kept = 0.9;
+  for (std::size_t i = 0; i < d.touches.size(); ++i) {
+    const TouchReport& t = d.touches[i];
+    if (t.remains && *t.remains < kept)
+      say.note("touch_fades", "touches", "of touch {} ({}) {:.0f} % remain at rest; {}", i + 1,
+               geometry::word_of(t.touch.kind), 100 * std::max(*t.remains, 0.0),
+               t.balances ? "the cloth around has moved with it" : "the cloth there had found no balance");
+  }
 }
 
 /// What could not be taken apart, and where most of it is.
@@ -444,7 +457,7 @@ std::vector<DrapeRemark> remarks_on(std::span<const Draped> garments) {
     if (d.report.stopped) break;
     Remarks say(remarks, d);
     for (const auto remark_on :
-         {remark_on_start, remark_on_strain, remark_on_contact, remark_on_refinement, remark_on_loose_parts,
+         {remark_on_start, remark_on_touches, remark_on_strain, remark_on_contact, remark_on_refinement, remark_on_loose_parts,
           remark_on_lost_parts, remark_on_crossings, remark_on_other_way})
       remark_on(d, say);
     if (!d.rests()) remark_on_unrest(d, say);
@@ -532,6 +545,7 @@ Json to_json(const Draped& d) {
                      {"done", word_of(d.loose_parts.use)}};
   if (d.report.local()) json["local"] = local_json(d);
   if (d.placed) json["placed"] = to_json(*d.placed);
+  if (!d.touches.empty()) json["touches"] = jobs::to_json(d.touches);
   if (d.self_contact) json["self_contact"] = self_contact_json(d);
   if (d.other) json["other_search"] = to_json(*d.other);
   if (d.untangled.at_start) json["untangled"] = untangled_json(d.untangled);

@@ -13,6 +13,7 @@
 #include "io/base/atomic_file.h"
 #include "io/scene/fabrics.h"
 #include "io/scene/relocated.h"
+#include "io/stroke/touch_file.h"
 #include "jobs/base/measure_crossings.h"
 #include "jobs/base/read_inputs.h"
 #include "jobs/body/world_body.h"
@@ -122,15 +123,19 @@ WrinkleJob job_for(const Sketch& sketch, const Json& strokes) {
   return job;
 }
 
-/// The garment without strokes comes to rest as furrow drape lets it.
-SketchAtRest drape_plain(const Sketch& sketch, Listener& listener) {
+/// The garment without strokes, as furrow drape takes it.
+DrapeJob plain_job(const Sketch& sketch) {
   DrapeJob job;
   job.budget = std::numeric_limits<double>::infinity();
   job.scene = at_rest_settings(sketch);
   io::set_value(job.scene.settings, "garment.mesh", "the garment", "the studio");
   job.scene.memory.meshes["the garment"] = sketch.garment;
   job.settings.made_for = sketch.made_for;
-  DrapeJobReport report = drape(job, listener);
+  return job;
+}
+
+SketchAtRest drape_plain(const Sketch& sketch, Listener& listener) {
+  DrapeJobReport report = drape(plain_job(sketch), listener);
   if (report.cancelled()) throw physics::Cancelled("cancelled");
   SketchAtRest rest{std::move(report.garments[0].file), report.garments[0].outcome(), {}};
   for (const DrapeRemark& r : report.remarks)
@@ -257,6 +262,14 @@ SketchAtRest drape_sketch(const Sketch& sketch, const Json& strokes, Listener& l
   SketchAtRest rest{std::move(report.garment), report.rest->outcome(), {}};
   for (const Warning& w : report.failures) rest.remarks.push_back(w.text);
   return rest;
+}
+
+TouchedSketch touch_sketch(const Sketch& sketch, const Json& wanted, Listener& listener) {
+  DrapeJob job = plain_job(sketch);
+  job.settings.touches = io::touches_from(Json{{"touches", {wanted}}}.dump(), "the studio");
+  Touched touched = touch(job, listener);
+  const TouchReport& report = touched.touches.at(0);
+  return {std::move(touched.file), geometry::word_of(report.touch.kind), report.moved, report.balances};
 }
 
 void write_sketched(const Sketch& sketch, const io::MeshFile& file, const fs::path& path,

@@ -73,6 +73,17 @@ struct SketchAtRest {
 /// these, and physics::Cancelled, if the listener cancels.
 SketchAtRest drape_sketch(const Sketch& sketch, const Json& strokes, Listener& listener);
 
+/// A garment at rest that was touched.
+struct TouchedSketch {
+  io::MeshFile file;  ///< [m]
+  std::string kind;   ///< "iron"
+  double moved;       ///< the farthest way of a vertex [m]
+  bool balances;      ///< the cloth there came to rest
+};
+/// Does a touch, as one of a file's (io/stroke/touch_file.h; metres, y up), to the garment, and lets the
+/// cloth around it come to rest; all farther cloth stays. Throws as jobs::touch(), and physics::Cancelled.
+TouchedSketch touch_sketch(const Sketch& sketch, const Json& touch, Listener& listener);
+
 /// Writes scene.toml, strokes.json and shape.ply, each whole or not at all, into a folder that is there; the
 /// first is what furrow simulate, the second what furrow wrinkle reads. Names what was written.
 std::vector<std::string> save_sketch(const Sketch& sketch, const Json& strokes,

@@ -29,9 +29,17 @@ FURROW_INLINE void sum_xyz(const Lanes& p0, const Lanes& p1, const Lanes& p2, co
   sum = (x + y) + z;
 }
 
-/// Four numbers in a row, aligned or not.
+/// Four numbers in a row, aligned or not: as a place to write to, and read. (Clang takes a reference to the
+/// former for aligned.)
 typedef double UnalignedLanes __attribute__((vector_size(32), may_alias, aligned(8)));
-FURROW_INLINE const UnalignedLanes& at(const double* p) { return *(const UnalignedLanes*)p; }
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"  // it is always inline
+FURROW_INLINE Lanes at(const double* p) {
+  Lanes lanes;
+  __builtin_memcpy(&lanes, p, sizeof lanes);
+  return lanes;
+}
+#pragma GCC diagnostic pop
 
 /// Four copies of one number.
 FURROW_INLINE void spread(double s, Lanes& lanes) { lanes = Lanes{s, s, s, s}; }

@@ -12,7 +12,6 @@ namespace furrow::physics {
 namespace {
 
 constexpr int leaf_size = TriangleBvh::leaf_size;
-constexpr float far_away = TriangleBvh::far_away;
 
 /// Left part of a range of n triangles: about half, in whole leaves.
 int left_part(int n) { return ((n / 2 + leaf_size - 1) / leaf_size) * leaf_size; }

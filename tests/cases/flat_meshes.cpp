@@ -48,7 +48,7 @@ void make_delaunay(const std::vector<Vec3>& x, Triangles& triangles) {
       const auto [a, b] = edge;
       const auto other = owner.find({b, a});
       if (a > b || other == owner.end() || touched[t] || touched[other->second]) continue;
-      const auto apex = [&](int triangle) {
+      const auto apex = [&, a = a, b = b](int triangle) {
         for (const int v : triangles[triangle]) {
           if (v != a && v != b) return v;
         }

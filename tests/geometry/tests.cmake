@@ -63,6 +63,7 @@ furrow_add_tests(geometry geometry LIBRARIES furrow::geometry SOURCES
   fold/line_region_test.cpp
   fold/raise_layers_test.cpp
   fold/taubin_smooth_test.cpp
+  fold/touch_test.cpp
   fold/wrinkle_test.cpp
   quality/fold_quality_test.cpp
 RELEASE_SOURCES

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <rapidcheck.h>
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -203,6 +204,10 @@ Json any_intention(std::mt19937_64& random, std::size_t lines) {
       },
       [&] {
         return Json{{"do", "points"}, {"line", line}};
+      },
+      [&] {
+        const char* const kind = std::array{"iron", "steam", "pinch"}[one(3)];
+        return Json{{"do", "touch"}, {"touch", {{kind, {x, 0.2, 0.0}}, {"radius", in(0, 0.2)}}}};
       },
       [&] {
         return Json{{"do", "fit"}, {"by", "strain"}};

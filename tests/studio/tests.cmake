@@ -2,7 +2,7 @@
 if(furrow_studio)
   furrow_add_tests(studio studio LIBRARIES furrow::studio Boost::headers SOURCES
     cloth_test.cpp failing_disk.cpp failing_disk.h hostile_test.cpp lines_test.cpp project_test.cpp protocol_test.cpp
-    replay_test.cpp rooms_test.cpp studio_test.cpp)
+    replay_test.cpp rooms_test.cpp studio_test.cpp touch_test.cpp)
   # Has functions of the system's names.
   set_source_files_properties(studio/failing_disk.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   add_test(NAME page_layout COMMAND ${FURROW_NODE} node_modules/prettier/bin/prettier.cjs --check src

@@ -39,7 +39,10 @@ function useShown(page: Page, studio?: Studio) {
     );
   }, [studio, status?.step, chosen, line?.on]);
   useEffect(() => studio?.handles.show(), [studio, tool, busy]);
-  useEffect(() => studio?.pen.follow(), [studio, tool, busy, frames]);
+  useEffect(() => {
+    studio?.pen.follow();
+    studio?.touch.follow();
+  }, [studio, tool, busy, frames]);
   useEffect(
     () => studio?.view.showPlane(both && status ? (middle ?? status.middle) : null),
     [both, middle, status?.middle, frames],

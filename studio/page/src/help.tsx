@@ -28,6 +28,7 @@ const keys: [string, string][] = [
   ["D", "drape: let it come to rest"],
   ["K", "keep: make the lines last"],
   ["P", "pin by clicks, with Shift a whole border; or all within a loop that is drawn, with Shift to let go"],
+  ["I", "touch cloth at rest: a click irons, steams or pinches it, a drag pulls it"],
   ["T", "tangles: where cloth crosses cloth"],
   ["?", "this page"],
 ];

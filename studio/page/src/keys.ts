@@ -28,6 +28,7 @@ function plain(page: Page, studio: Studio): Keys {
     r: () => studio.pick("ridge"),
     v: () => studio.pick("valley"),
     p: () => studio.pick("pin"),
+    i: () => studio.pick("touch"),
     escape: () => studio.escape(),
     f: () => view.frameAll(),
     "1": () => view.look("front"),

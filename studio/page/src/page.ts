@@ -4,10 +4,11 @@ import { useRef, useState } from "preact/hooks";
 import type { ClothMap } from "./cloth";
 import type { Files } from "./open";
 import type { Done, GalleryItem, Progress, Status } from "./protocol";
+import type { TouchKind } from "./touch";
 import type { Seen } from "./view";
 
-export type Tool = "look" | "ridge" | "valley" | "pin";
-export type Busy = "" | "drape" | "keep" | "give" | "play";
+export type Tool = "look" | "ridge" | "valley" | "pin" | "touch";
+export type Busy = "" | "drape" | "keep" | "touch" | "give" | "play";
 
 /** How the height follows a pen's pressure: as it is, sooner, later, or not at all. */
 export type Feel = "even" | "soft" | "firm" | "none";
@@ -17,6 +18,14 @@ export interface Draft {
   height: number;
   width: number | null;
   feel: Feel;
+}
+
+/** Of the next touch: `strength`: of a pinch as much, of others all. */
+export interface TouchDraft {
+  kind: TouchKind;
+  radius: number;
+  strength: number;
+  pinch: number;
 }
 
 /** What is said below the picture. `folder`: that of what was written; `link`: to what the page made. */
@@ -33,6 +42,7 @@ export interface State {
   gone: boolean; // the program has ended
   tool: Tool;
   draft: Draft;
+  touch: TouchDraft;
   feels: boolean; // a pen has shown that it feels pressure
   both: boolean; // what is drawn is mirrored
   middle: number | null; // of the mirror, while it is dragged
@@ -61,6 +71,7 @@ const first: State = {
   gone: false,
   tool: "look",
   draft: { height: 0.02, width: null, feel: "even" },
+  touch: { kind: "iron", radius: 0.1, strength: 1, pinch: 0.3 },
   feels: false,
   both: false,
   middle: null,

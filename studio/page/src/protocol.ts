@@ -58,6 +58,8 @@ export interface Done {
   legend?: string;
   remarks?: string[];
   written?: string[];
+  moved?: number; // by a touch, at most [m]
+  balances?: boolean;
   live?: boolean;
   passed_over?: boolean;
   points?: Vector[];

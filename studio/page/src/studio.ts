@@ -12,6 +12,7 @@ import type { OpenWords } from "./open";
 import { type Draft, type Feel, isIdle, isPen, mayDraw, type Page, type Tool, type Words } from "./page";
 import { type Drawn, Pen } from "./pen";
 import { type Done, type Hearer, Program, type Vector } from "./protocol";
+import { Touch } from "./touch";
 import { recordTurn } from "./turn";
 import { type Seen, View } from "./view";
 
@@ -40,6 +41,7 @@ export class Studio {
   readonly pen: Pen;
   readonly handles: Handles;
   readonly hand: Hand;
+  readonly touch: Touch;
   readonly lines: LineChanges;
   /** What the panel of the cloth asks for. */
   readonly cloth: ClothActions = {
@@ -85,6 +87,14 @@ export class Studio {
       },
     });
     this.followPointer(canvas);
+    this.touch = new Touch(
+      this.view,
+      () => {
+        const { tool, touch } = page.now();
+        return { on: tool === "touch" && isIdle(page.now()), kind: touch.kind, radius: touch.radius };
+      },
+      (at, by) => void this.touchAt(at, by),
+    );
     this.hand = new Hand(this.view, () => this.handDoes(), {
       // What the program does not want to hear any more, as the cloth has just been paused, is no fault.
       pulls: (grip) => void this.program.ask("pull", grip ?? {}).catch(() => undefined),
@@ -94,6 +104,25 @@ export class Studio {
         else this.say("There is no vertex of the cloth within that loop: draw it larger, or click.");
       },
     });
+  }
+
+  /** What is clicked on is touched. */
+  private async touchAt(at: Vector3, by: Vector3 | null) {
+    const { kind, radius, strength, pinch } = this.page.now().touch;
+    const touch = {
+      [kind]: at.toArray(),
+      radius,
+      strength: kind === "pinch" ? pinch : strength,
+      ...(by && { by: by.toArray() }),
+    };
+    this.page.set({ busy: "touch" });
+    await this.ask("touch", { touch }, ({ moved, balances }) =>
+      sentences(
+        `The cloth moved by up to ${(1000 * moved!).toFixed(1)} mm there. Touch more, drape, or undo.`,
+        balances ? undefined : "It has found no balance there yet; Drape lets it come to rest.",
+      ),
+    );
+    this.page.set({ busy: "", progress: undefined });
   }
 
   /** Lines and pens show where the pointer is, once a picture. */
@@ -200,8 +229,13 @@ export class Studio {
 
   /** Another size of the pen, by a key. */
   resize(factor: number) {
-    const { draft, tool } = this.page.now(),
+    const { draft, tool, touch } = this.page.now(),
       next = resized(draft, factor);
+    if (tool === "touch") {
+      const radius = Math.min(0.4, Math.max(0.02, Math.round(touch.radius * factor * 200) / 200));
+      this.page.set({ touch: { ...touch, radius } });
+      return this.touch.follow(true);
+    }
     // A step is a millimetre at least.
     if (next.height === draft.height)
       next.height = resized({ ...draft, height: draft.height + Math.sign(factor - 1) / 1000 }, 1).height;
@@ -455,6 +489,7 @@ export class Studio {
     if (this.pen.drawing) this.pen.drop();
     else if (this.hand.encircling) this.hand.drop();
     else if (this.handles.dragging) this.handles.drop();
+    else if (this.touch.pulling) this.touch.drop();
     else this.page.set({ tool: "look" });
   }
 }

@@ -3,12 +3,14 @@
 import { mm, ownWidth, Slider } from "./lines";
 import { type Feel, isIdle, type Page } from "./page";
 import type { Studio } from "./studio";
+import type { TouchKind } from "./touch";
 
 const tools = [
   ["look", "Look", "Esc"],
   ["ridge", "Ridge", "R"],
   ["valley", "Valley", "V"],
   ["pin", "Pin", "P"],
+  ["touch", "Touch", "I"],
 ] as const;
 
 /** How the next line will be drawn. */
@@ -74,6 +76,61 @@ function Draft({ page }: { page: Page }) {
   );
 }
 
+const touches: [TouchKind, string][] = [
+  ["iron", "Iron"],
+  ["steam", "Steam"],
+  ["pinch", "Pinch"],
+  ["pull", "Pull"],
+];
+
+/** What the next touch will do. */
+function NextTouch({ page }: { page: Page }) {
+  const { touch } = page.now(),
+    set = (change: Partial<typeof touch>) => page.set({ touch: { ...page.now().touch, ...change } }),
+    pinches = touch.kind === "pinch";
+  return (
+    <>
+      <div class="group">
+        <select
+          aria-label="What a touch does"
+          value={touch.kind}
+          onChange={(e) => set({ kind: e.currentTarget.value as TouchKind })}
+        >
+          {touches.map(([kind, label]) => (
+            <option key={kind} value={kind}>
+              {label}
+            </option>
+          ))}
+        </select>
+      </div>
+      <div class="group">
+        <Slider
+          label="Radius of the touch"
+          short="Radius"
+          value={touch.radius * 1000}
+          min={20}
+          max={400}
+          step={5}
+          text={(v) => mm(v / 1000)}
+          change={(v) => set({ radius: v / 1000 })}
+        />
+      </div>
+      <div class="group">
+        <Slider
+          label="Strength of the touch"
+          short="Strength"
+          value={100 * (pinches ? touch.pinch : touch.strength)}
+          min={5}
+          max={pinches ? 80 : 100}
+          step={5}
+          text={(v) => `${Math.round(v)} %`}
+          change={(v) => set(pinches ? { pinch: v / 100 } : { strength: v / 100 })}
+        />
+      </div>
+    </>
+  );
+}
+
 export function Toolbar({ page, studio }: { page: Page; studio?: Studio }) {
   const state = page.now(),
     { status, tool } = state;
@@ -92,7 +149,7 @@ export function Toolbar({ page, studio }: { page: Page; studio?: Studio }) {
           </button>
         ))}
       </div>
-      <Draft page={page} />
+      {tool === "touch" ? <NextTouch page={page} /> : <Draft page={page} />}
       <div class="group">
         <button
           disabled={!status?.undo}

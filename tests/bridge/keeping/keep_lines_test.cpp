@@ -460,7 +460,7 @@ TEST_CASE("keep_lines: a trial asks once on its way, and what ends there is not 
   CHECK(calm.kept_gust == calm.kept);
 }
 
-TEST_CASE("try_shape: calm ends once nothing moves\, but not that of a shape that is not stable") {
+TEST_CASE("try_shape: calm ends once nothing moves, but not that of a shape that is not stable") {
   Hung hung(1e-4);
   hung.options.seconds = 5;
   hung.options.gust = 0;

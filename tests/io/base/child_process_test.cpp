@@ -44,7 +44,7 @@ TEST_CASE("run_in_child: what happens in the child is a content error here") {
   CHECK_THROWS_AS(run_in_child([] { return std::string(); }, {.seconds = 0}), std::invalid_argument);
 }
 
-#ifndef __SANITIZE_ADDRESS__
+#ifndef FURROW_SANITIZED
 TEST_CASE("run_in_child: memory is limited") {
   const auto devour = [] { return std::string(std::size_t{1} << 29, 'x'); };
   CHECK(content_error([&] {

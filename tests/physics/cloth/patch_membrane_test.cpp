@@ -95,7 +95,7 @@ TEST_CASE("patches: the energy is that of the formula") {
   };
   double energy = 0;
   for (const auto& [a, b, c] : plain.triangles) {
-    const auto edges = [&](const Positions& at) {
+    const auto edges = [a = a, b = b, c = c](const Positions& at) {
       Eigen::Matrix<double, 3, 2> m;
       m << at[b] - at[a], at[c] - at[a];
       return m;
@@ -173,8 +173,8 @@ TEST_CASE("patches: triangles that start at another corner, and packed callers, 
   for (std::size_t t = 0; t < turned.membrane.size(); t += 2) {
     MembraneTriangle& own = turned.membrane[t];
     const auto& x = plain.particles.x;
-    std::ranges::rotate(own.vertices, own.vertices.begin() + 1);
-    std::ranges::rotate(own.rest_lengths, own.rest_lengths.begin() + 1);
+    std::rotate(own.vertices.begin(), own.vertices.begin() + 1, own.vertices.end());
+    std::rotate(own.rest_lengths.begin(), own.rest_lengths.begin() + 1, own.rest_lengths.end());
     const Vec3 first = x[own.vertices[1]] - x[own.vertices[0]];
     own.threads.angle = 0.4 - std::atan2(first.y(), first.x());
   }

@@ -177,6 +177,7 @@ TEST_CASE("simulate: a step that is cancelled is none, and going on gives the bi
   } while (++stops < 100);
   CHECK(stops > 3);
   CHECK(stops < 100);
+  CHECK(within > 0);
   check_same(whole, one, parts, part);
 }
 

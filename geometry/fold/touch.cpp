@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/fold/touch.h"
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "geometry/fold/line_region.h"
+#include "geometry/mesh/edge_metric.h"
+#include "geometry/mesh/preconditions.h"
+#include "geometry/mesh/property_names.h"
+#include "geometry/rest/bending_springs.h"
+#include "geometry/rest/rest_angles.h"
+#include "geometry/rest/rest_metric.h"
+
+namespace furrow::geometry {
+namespace {
+
+using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+using Triplets = std::vector<Eigen::Triplet<double>>;
+
+void check_touch(const Touch& touch) {
+  constexpr const char* me = "touch";
+  if (!(touch.radius > 0) || !std::isfinite(touch.radius))
+    refuse(me, "radius is " + std::to_string(touch.radius));
+  if (!(touch.strength > 0 && touch.strength <= 1))
+    refuse(me, "strength is " + std::to_string(touch.strength));
+  for (int k = 0; k < 3; ++k)
+    if (!std::isfinite(touch.at[k]) || !std::isfinite(touch.by[k])) refuse(me, "a number is not finite");
+}
+
+/// 1 up to half of the radius, 0 from the radius on.
+double hold_at(double distance, double radius) {
+  const double t = std::clamp(2 * (1 - distance / radius), 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+/// The vertex nearest to the touch within its radius; buttons and what else rides on cloth is passed over.
+Vertex nearest_cloth(const Mesh& mesh, const Touch& touch) {
+  const auto rides = find_map(mesh, attribute::rides);
+  Vertex nearest;
+  double least = touch.radius * touch.radius;
+  for (const Vertex v : mesh.vertices()) {
+    const double d = CGAL::squared_distance(mesh.point(v), touch.at);
+    if (d > least || mesh.is_isolated(v) || (d == least && nearest.is_valid())) continue;
+    const auto on_cloth = [&](Face f) { return f.is_valid() && ((*rides)[f] == 1 || (*rides)[f] == 2); };
+    const auto faces = mesh.faces_around_target(mesh.halfedge(v));
+    if (rides && std::any_of(faces.begin(), faces.end(), on_cloth)) continue;
+    nearest = v;
+    least = d;
+  }
+  return nearest;
+}
+
+/// What ironing may move: the vertices that it takes hold of.
+struct IronedPatch {
+  std::vector<Vertex> vertices;
+  std::vector<int> index;    ///< by vertex: its place in `vertices`, or -1
+  std::vector<double> area;  ///< of each, a third of its faces' [m^2]
+};
+
+IronedPatch patch_of(const Mesh& mesh, const std::vector<double>& weights) {
+  IronedPatch patch{{}, std::vector<int>(mesh.num_vertices(), -1), {}};
+  for (const Vertex v : mesh.vertices())
+    if (weights[v.idx()] > 0) {
+      patch.index[v.idx()] = int(patch.vertices.size());
+      patch.vertices.push_back(v);
+    }
+  patch.area.assign(patch.vertices.size(), 0);
+  return patch;
+}
+
+/// Rows of the Laplacian at the patch's vertices, over all vertices of the mesh: by cotangents inside, along
+/// the border on it. Fills the patch's areas.
+SparseRows laplacian(const Mesh& mesh, IronedPatch& patch) {
+  Triplets entries;
+  std::vector<double> lengths(mesh.num_edges(), 0);
+  for (const Edge e : mesh.edges()) lengths[e.idx()] = spatial_length(mesh, e);
+  const auto add = [&](int row, Vertex to, double w) {
+    entries.emplace_back(row, int(to.idx()), w);
+    entries.emplace_back(row, int(patch.vertices[std::size_t(row)].idx()), -w);
+  };
+  for (std::size_t i = 0; i < patch.vertices.size(); ++i) {
+    const Vertex v = patch.vertices[i];
+    std::vector<Edge> rim;
+    for (const Halfedge h : mesh.halfedges_around_target(mesh.halfedge(v))) {
+      if (mesh.is_border(mesh.edge(h))) rim.push_back(mesh.edge(h));
+      if (mesh.is_border(h)) continue;
+      const auto [a, b, c] = edge_lengths(mesh, mesh.face(h), lengths);
+      patch.area[i] += triangle_area(a, b, c) / 3;
+    }
+    if (rim.size() == 2) {
+      const double sum = lengths[rim[0].idx()] + lengths[rim[1].idx()];
+      for (const Edge e : rim)
+        add(int(i), mesh.vertex(e, mesh.vertex(e, 0) == v), 2 / (lengths[e.idx()] * sum) * patch.area[i]);
+    }
+    if (!rim.empty()) continue;
+    for (const Halfedge in : mesh.halfedges_around_target(mesh.halfedge(v))) {
+      double w = 0;
+      for (const Halfedge h : {in, mesh.opposite(in)}) {
+        const double a = lengths[mesh.edge(h).idx()], b = lengths[mesh.edge(mesh.next(h)).idx()],
+                     c = lengths[mesh.edge(mesh.prev(h)).idx()];
+        w += bounded_cotangents(a, b, c)[0] / 2;
+      }
+      add(int(i), mesh.source(in), w);
+    }
+  }
+  SparseRows rows(int(patch.vertices.size()), int(mesh.num_vertices()));
+  rows.setFromTriplets(entries.begin(), entries.end());
+  return rows;
+}
+
+/// Where ironing puts the vertices of the patch, with all else held; empty where that has no solution.
+Eigen::MatrixXd ironed(const Mesh& mesh, IronedPatch& patch, double radius) {
+  const double t = std::pow(radius / std::numbers::pi, 4);
+  const SparseRows all = laplacian(mesh, patch);
+  const int n = int(patch.vertices.size());
+  Triplets inner;
+  Eigen::MatrixXd held = Eigen::MatrixXd::Zero(n, 3), right = Eigen::MatrixXd::Zero(n, 3);
+  Eigen::VectorXd mass(n);
+  for (int i = 0; i < n; ++i) {
+    mass[i] = std::max(patch.area[std::size_t(i)], 1e-16);
+    const Point& own = mesh.point(patch.vertices[std::size_t(i)]);
+    for (int k = 0; k < 3; ++k) right(i, k) = mass[i] * own[k];
+    for (SparseRows::InnerIterator it(all, i); it; ++it) {
+      const Vertex v = Vertex(Vertex::size_type(it.col()));
+      if (patch.index[v.idx()] >= 0)
+        inner.emplace_back(i, patch.index[v.idx()], it.value());
+      else
+        for (int k = 0; k < 3; ++k) held(i, k) += it.value() * mesh.point(v)[k];
+    }
+  }
+  Eigen::SparseMatrix<double> rows(n, n), matrix;
+  rows.setFromTriplets(inner.begin(), inner.end());
+  const Eigen::SparseMatrix<double> weighed = t * rows.transpose() * mass.cwiseInverse().asDiagonal();
+  matrix = weighed * rows;
+  matrix.diagonal() += mass;
+  right -= weighed * held;
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
+  if (solver.info() != Eigen::Success) return {};
+  return solver.solve(right);
+}
+
+/// Puts the cloth where the touch has it.
+void move_touched(Mesh& mesh, const Touch& touch, const std::vector<double>& weights) {
+  if (touch.kind == TouchKind::pull)
+    for (const Vertex v : mesh.vertices())
+      if (weights[v.idx()] > 0) mesh.point(v) = mesh.point(v) + weights[v.idx()] * touch.by;
+  if (touch.kind != TouchKind::iron) return;
+  IronedPatch patch = patch_of(mesh, weights);
+  const Eigen::MatrixXd smooth = ironed(mesh, patch, touch.radius);
+  for (Eigen::Index i = 0; i < smooth.rows(); ++i) {
+    const Vertex v = patch.vertices[std::size_t(i)];
+    const double share = weights[v.idx()] * touch.strength;
+    mesh.point(v) = mesh.point(v) + share * (Point(smooth(i, 0), smooth(i, 1), smooth(i, 2)) - mesh.point(v));
+  }
+}
+
+/// A touch's share of a change from `a` to `b`.
+class Blend {
+ public:
+  Blend(const Touch& touch, const std::vector<double>& weights) : touch_(touch), weights_(weights) {}
+  double share(Vertex a, Vertex b) const {
+    return touch_.strength * (weights_[a.idx()] + weights_[b.idx()]) / 2;
+  }
+  static double between(double from, double to, double share) { return from + share * (to - from); }
+
+ private:
+  const Touch& touch_;
+  const std::vector<double>& weights_;
+};
+
+/// By edge: the factor of a pinch, as small as its triangles bear: one whose sides would not meet is pinched
+/// less.
+std::vector<double> pinch_factors(const Mesh& mesh, const std::vector<double>& rest, const Blend& blend) {
+  std::vector<double> factor(mesh.num_edges(), 1);
+  for (const Edge e : mesh.edges())
+    factor[e.idx()] = std::max(1 - blend.share(mesh.vertex(e, 0), mesh.vertex(e, 1)), 0.05);
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const Face f : mesh.faces()) {
+      std::array<Edge, 3> edges;
+      TriangleLengths now{}, before{};
+      std::size_t i = 0;
+      double sum = 0;
+      for (const Halfedge h : mesh.halfedges_around_face(mesh.halfedge(f))) {
+        edges[i] = mesh.edge(h);
+        before[i] = rest[edges[i].idx()];
+        now[i] = before[i] * factor[edges[i].idx()];
+        sum += factor[edges[i++].idx()] / 3;
+      }
+      if (triangle_area(now) > 0.1 * sum * sum * triangle_area(before) || sum >= 1) continue;
+      for (const Edge e : edges) factor[e.idx()] = std::min(1.0, (factor[e.idx()] + 0.05) * 1.1);
+      changed = true;
+    }
+  }
+  return factor;
+}
+
+double distance_of(const Mesh& mesh, const BendingSpring& s) {
+  return std::sqrt(CGAL::squared_distance(mesh.point(s.a), mesh.point(s.b)));
+}
+
+/// Calls change(length, edge) for each rest length of an edge, that of its spring and those of its triangles,
+/// and change_spring(spring) for the rest length of each spring across an edge; both return the new one.
+template <class Change, class ChangeSpring>
+void change_lengths(Mesh& mesh, const Change& change, const ChangeSpring& change_spring) {
+  const auto rest = ensure_rest_lengths(mesh);
+  const auto own = find_map(mesh, attribute::triangle_rest_length);
+  for (const Edge e : mesh.edges()) {
+    rest[e] = change(rest[e], e);
+    for (const Halfedge h : {mesh.halfedge(e), mesh.opposite(mesh.halfedge(e))})
+      if (own && !std::isnan((*own)[h])) (*own)[h] = change((*own)[h], e);
+  }
+  for (const BendingSpring& s : bending_springs(mesh))
+    (*find_map(mesh, attribute::bending_rest_length))[s.across] = change_spring(s);
+}
+
+/// Calls change(angle, edge), which returns the new one, for each rest angle that is set.
+template <class Change>
+void change_angles(Mesh& mesh, const Change& change) {
+  const auto angle = find_map(mesh, attribute::rest_angle);
+  if (!angle) return;
+  for (const Edge e : mesh.edges())
+    if (!mesh.is_border(e) && !std::isnan((*angle)[e])) (*angle)[e] = change((*angle)[e], e);
+}
+
+/// Rest lengths and angles go to those of the shape.
+void take_shape(Mesh& mesh, const Blend& blend) {
+  const auto share = [&](Edge e) { return blend.share(mesh.vertex(e, 0), mesh.vertex(e, 1)); };
+  change_lengths(
+      mesh,
+      [&](double rest, Edge e) {
+        return share(e) > 0 ? Blend::between(rest, spatial_length(mesh, e), share(e)) : rest;
+      },
+      [&](const BendingSpring& s) {
+        const double by = blend.share(s.a, s.b);
+        return by > 0 ? Blend::between(s.rest_length, distance_of(mesh, s), by) : s.rest_length;
+      });
+  change_angles(mesh, [&](double rest, Edge e) {
+    return share(e) > 0 ? Blend::between(rest, dihedral_angle(mesh, e), share(e)) : rest;
+  });
+}
+
+/// Rest lengths go along as the cloth was moved, so that its strain stays, and what bends it goes where its
+/// bend went.
+void go_along(Mesh& mesh, const Mesh& before) {
+  const auto has_moved = [&](Vertex v) { return mesh.point(v) != before.point(v); };
+  const auto carried = [](double rest, double now, double then) { return then > 0 ? rest * now / then : now; };
+  change_lengths(
+      mesh,
+      [&](double rest, Edge e) {
+        const bool moved = has_moved(mesh.vertex(e, 0)) || has_moved(mesh.vertex(e, 1));
+        return moved ? carried(rest, spatial_length(mesh, e), spatial_length(before, e)) : rest;
+      },
+      [&](const BendingSpring& s) {
+        const bool moved = has_moved(s.a) || has_moved(s.b);
+        return moved ? carried(s.rest_length, distance_of(mesh, s), distance_of(before, s)) : s.rest_length;
+      });
+  change_angles(mesh, [&](double rest, Edge e) {
+    const double now = dihedral_angle(mesh, e), then = dihedral_angle(before, e);
+    if (now == then) return rest;
+    const double left = then == 0 ? 0 : std::clamp(now / then, 0.0, 1.0);
+    return std::clamp(now + left * (rest - then), -std::numbers::pi, std::numbers::pi);
+  });
+}
+
+void shorten(Mesh& mesh, const Blend& blend) {
+  const std::vector<double> factor = pinch_factors(mesh, rest_lengths(mesh), blend);
+  change_lengths(
+      mesh, [&](double rest, Edge e) { return rest * factor[e.idx()]; },
+      [&](const BendingSpring& s) { return s.rest_length * std::max(1 - blend.share(s.a, s.b), 0.05); });
+}
+
+}  // namespace
+
+const char* word_of(TouchKind kind) {
+  switch (kind) {
+    case TouchKind::iron:
+      return "iron";
+    case TouchKind::steam:
+      return "steam";
+    case TouchKind::pinch:
+      return "pinch";
+    case TouchKind::pull:
+      break;
+  }
+  return "pull";
+}
+
+std::vector<double> touch_weights(const Mesh& mesh, const Touch& touch) {
+  check_touch(touch);
+  const std::array<Vertex, 1> seed{nearest_cloth(mesh, touch)};
+  if (!seed[0].is_valid()) refuse("touch", "no cloth lies within its radius");
+  std::vector<double> lengths(mesh.num_edges(), 0), weights(mesh.num_vertices(), 0);
+  for (const Edge e : mesh.edges()) lengths[e.idx()] = spatial_length(mesh, e);
+  for (const Vertex v : vertices_within(mesh, seed, 1.5 * largest_detour * touch.radius, lengths))
+    if (!mesh.is_isolated(v))
+      weights[v.idx()] = hold_at(std::sqrt(CGAL::squared_distance(mesh.point(v), touch.at)), touch.radius);
+  return weights;
+}
+
+void apply_touch(Mesh& mesh, const Touch& touch, const std::vector<double>& weights) {
+  check_touch(touch);
+  check_mesh(mesh, "touch");
+  if (weights.size() != mesh.num_vertices())
+    refuse("touch", "there are " + std::to_string(weights.size()) + " weights of " +
+                        std::to_string(mesh.num_vertices()) + " vertices");
+  ensure_rest_lengths(mesh);
+  const Blend blend(touch, weights);
+  if (touch.kind == TouchKind::pinch) return shorten(mesh, blend);
+  if (touch.kind == TouchKind::steam) return take_shape(mesh, blend);
+  const Mesh before = mesh;
+  move_touched(mesh, touch, weights);
+  go_along(mesh, before);
+}
+
+}  // namespace furrow::geometry
