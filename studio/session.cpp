@@ -107,6 +107,7 @@ Session::Prepared Session::prepare(const Json& drawing, std::optional<std::strin
   Prepared made;
   if (!cloth_ || drawing.at("settings") != project_->now().drawing.at("settings")) {
     made.sketch = open_drawing(drawing, project_->folder(), *this);
+    made.sketch->scene.memory.shelf = shelf_;
     made.middle = jobs::middle_of(*made.sketch);
     made.parts = jobs::loose_parts_of(*made.sketch);
     if (made.sketch->body)

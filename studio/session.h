@@ -130,11 +130,12 @@ class Session : jobs::Listener {
   bool playing_ = false;           ///< until somebody stops it: it may take as long as it likes
   Json did_;                       ///< the intention that is being done, as the log will have it
   std::vector<std::string> told_;  ///< by the job that runs
-  bool lost_ = false;              ///< lines, by what it told
-  bool recorded_ = false;          ///< a step, for the message that is being handled
-  Bytes cloth_, body_;             ///< as they are shown
-  Bytes shown_body_;               ///< that all pages have
-  bool body_moved_ = false;        ///< since it was shown so
+  std::shared_ptr<jobs::BodyShelf> shelf_ = jobs::make_shelf();
+  bool lost_ = false;        ///< lines, by what it told
+  bool recorded_ = false;    ///< a step, for the message that is being handled
+  Bytes cloth_, body_;       ///< as they are shown
+  Bytes shown_body_;         ///< that all pages have
+  bool body_moved_ = false;  ///< since it was shown so
   std::mutex grip_mutex_;
   std::optional<jobs::Grip> grip_;  ///< that a page asks for
   std::chrono::steady_clock::time_point progress_told_ = {}, moving_shown_ = {}, body_shown_ = {};

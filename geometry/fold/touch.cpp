@@ -249,7 +249,9 @@ void take_shape(Mesh& mesh, const Blend& blend) {
 /// bend went.
 void go_along(Mesh& mesh, const Mesh& before) {
   const auto has_moved = [&](Vertex v) { return mesh.point(v) != before.point(v); };
-  const auto carried = [](double rest, double now, double then) { return then > 0 ? rest * now / then : now; };
+  const auto carried = [](double rest, double now, double then) {
+    return then > 0 ? rest * now / then : now;
+  };
   change_lengths(
       mesh,
       [&](double rest, Edge e) {

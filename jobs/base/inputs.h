@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -109,11 +110,15 @@ class PathKey {
   std::filesystem::path place_;
 };
 
+struct BodyShelf;  ///< (jobs/body/world_body.h)
+
 /// What a job has in memory in place of files: settings name it as if it were one. Keys are paths as the
 /// program would open them; metres, y up.
 struct MemoryFiles {
   std::map<PathKey, io::MeshFile> meshes = {};
   std::map<PathKey, std::vector<io::DrawnStroke>> strokes = {};
+  std::shared_ptr<BodyShelf> shelf =
+      {};  ///< keeps the body that was loaded last; null: each job loads it anew
 
   bool holds(const PathKey& path) const { return meshes.count(path) || strokes.count(path); }
   const io::MeshFile* find_mesh(const PathKey& path) const {

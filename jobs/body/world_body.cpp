@@ -146,8 +146,23 @@ double tolerance_for(const io::SavedState& state) {
   return state.field_tolerance > 0 ? state.field_tolerance : tolerance_for(state.file);
 }
 
-BodyCollider load_body(const io::SceneBody& body, const Context& context, double at_most) {
-  stop_if_cancelled(context);
+namespace {
+
+/// All that a load of a file depends on; "": a file that is not there, or a mesh in memory.
+std::string shelf_key(const io::SceneBody& body, const Context& context, double at_most) {
+  std::error_code fault;
+  const auto size = std::filesystem::file_size(body.mesh, fault);
+  const auto written = std::filesystem::last_write_time(body.mesh, fault);
+  if (fault || context.memory->find_mesh(body.mesh)) return "";
+  const Frame frame = with_unit(context.frame, body.unit);
+  const physics::DistanceFieldOptions& o = body.options;
+  return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", body.mesh.string(), size,
+                     written.time_since_epoch().count(), frame.unit_in_use(), frame.up_in_use(), at_most,
+                     o.tolerance.value_or(0), o.outer_band, o.inner_band, o.far_slope, o.margin, o.band_depth,
+                     o.max_depth, int(o.gradient), o.most_samples);
+}
+
+BodyCollider load_anew(const io::SceneBody& body, const Context& context, double at_most) {
   BodyOutline outline;
   const Context own{with_unit(context.frame, body.unit), context.listener, context.memory};
   const bool in_memory = context.memory && context.memory->find_mesh(body.mesh);
@@ -159,6 +174,18 @@ BodyCollider load_body(const io::SceneBody& body, const Context& context, double
     return field_of(exact, options, body.mesh.string(), context);
   });
   return {std::move(triangles), std::move(exact), std::move(field), outline};
+}
+
+}  // namespace
+
+BodyCollider load_body(const io::SceneBody& body, const Context& context, double at_most) {
+  stop_if_cancelled(context);
+  BodyShelf* const shelf = context.memory ? context.memory->shelf.get() : nullptr;
+  const std::string key = shelf ? shelf_key(body, context, at_most) : "";
+  if (!key.empty() && shelf->key == key) return *shelf->body;
+  BodyCollider loaded = load_anew(body, context, at_most);
+  if (!key.empty()) *shelf = {key, std::make_shared<const BodyCollider>(loaded)};
+  return loaded;
 }
 
 WorldBody::WorldBody(const io::SceneBody& body, const Context& context, double at_most)

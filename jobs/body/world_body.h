@@ -47,9 +47,16 @@ double tolerance_for(const io::MeshFile& worn);
 /// That of the run that the state was saved by: lines drawn since then do not change it.
 double tolerance_for(const io::SavedState& state);
 
+/// The body of a file that was loaded last, for jobs after each other (MemoryFiles::shelf): a file that was
+/// changed, or other options, load anew.
+struct BodyShelf {
+  std::string key;
+  std::shared_ptr<const BodyCollider> body;
+};
+
 /// Reads and repairs a body, and builds its field or loads the saved one; shows progress. Warns of what was
-/// repaired. Unless the body has a tolerance of its own, it is `at_most` [m], but no less than a quarter of
-/// the default, which would take very long.
+/// repaired. A body that lies on the shelf is that one, without a word. Unless the body has a tolerance of
+/// its own, it is `at_most` [m], but no less than a quarter of the default, which would take very long.
 BodyCollider load_body(const io::SceneBody& body, const Context& context,
                        double at_most = std::numeric_limits<double>::infinity());
 

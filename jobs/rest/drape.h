@@ -42,6 +42,7 @@ struct TouchReport {
   std::size_t vertices = 0;  ///< that it took hold of
   double moved = 0;          ///< the farthest way of one of them, the cloth around at rest [m]
   bool balances = false;     ///< it came to rest there
+  double seconds = 0;        ///< that it took [s]
   /// Share of its change of shape that the garment at rest has kept [-]; none: it changed next to nothing.
   std::optional<double> remains;
   std::vector<physics::Vec3> before = {}, after = {};  ///< places of all vertices [m]

@@ -457,8 +457,8 @@ std::vector<DrapeRemark> remarks_on(std::span<const Draped> garments) {
     if (d.report.stopped) break;
     Remarks say(remarks, d);
     for (const auto remark_on :
-         {remark_on_start, remark_on_touches, remark_on_strain, remark_on_contact, remark_on_refinement, remark_on_loose_parts,
-          remark_on_lost_parts, remark_on_crossings, remark_on_other_way})
+         {remark_on_start, remark_on_touches, remark_on_strain, remark_on_contact, remark_on_refinement,
+          remark_on_loose_parts, remark_on_lost_parts, remark_on_crossings, remark_on_other_way})
       remark_on(d, say);
     if (!d.rests()) remark_on_unrest(d, say);
     for (const Warning& doubt : doubts_of(d)) remarks.push_back({false, doubt});

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <chrono>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -76,7 +77,8 @@ bool settle_around(const geometry::Touch& touch, const DrapePlan& plan, io::Mesh
 
 TouchReport touch_once(const geometry::Touch& touch, const DrapePlan& plan, io::MeshFile& file,
                        const std::function<bool()>& go_on, const Context& context) {
-  TouchReport report{touch, 0, 0, false, {}, bridge::positions_of(file.mesh), {}, {}};
+  const auto begun = std::chrono::steady_clock::now();
+  TouchReport report{touch, 0, 0, false, 0, {}, bridge::positions_of(file.mesh), {}, {}};
   const std::vector<double> weights = geometry::touch_weights(file.mesh, touch);
   geometry::apply_touch(file.mesh, touch, weights);
   report.balances = settle_around(touch, plan, file, go_on, context);
@@ -86,6 +88,7 @@ TouchReport touch_once(const geometry::Touch& touch, const DrapePlan& plan, io::
     report.vertices += std::size_t(report.held[i]);
     if (report.held[i]) report.moved = std::max(report.moved, (report.after[i] - report.before[i]).norm());
   }
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   return report;
 }
 
@@ -118,7 +121,7 @@ std::vector<TouchReport> touch_garment(GivenGarment& garment, const BodyCollider
   const std::vector<geometry::Touch> touches = touches_of(s, context);
   if (touches.empty()) return {};
   io::MeshFile& file = garment.file;
-  const DrapePlan plan{garment.scene, body, s, file, drape_options_of(garment.scene, s, gap),
+  const DrapePlan plan{garment.scene,   body, s, file, drape_options_of(garment.scene, s, gap),
                        garment.places()};
   require_at_rest(plan, file);
   complete_garment(file, plan.scene.material);
@@ -153,6 +156,7 @@ Json to_json(const std::vector<TouchReport>& touches) {
                     {"vertices", t.vertices},
                     {"moved", t.moved},
                     {"balances", t.balances},
+                    {"seconds", t.seconds},
                     {"remains", t.remains ? Json(*t.remains) : Json()}});
   return list;
 }

@@ -200,6 +200,8 @@ Sketch open_sketch(const SceneInput& input, Listener& listener, const fs::path& 
   return sketch;
 }
 
+std::shared_ptr<BodyShelf> make_shelf() { return std::make_shared<BodyShelf>(); }
+
 void check_made_for(const Sketch& sketch, Listener& listener) {
   if (sketch.made_for.empty()) return;
   const io::Scene scene = scene_of(sketch.scene.settings, sketch.scene.folder);

@@ -40,6 +40,9 @@ struct Sketch {
 /// time 0), geometry::ContentError for files that cannot be used.
 Sketch open_sketch(const SceneInput& scene, Listener& listener, const std::filesystem::path& made_for = {});
 
+/// For SceneInput::memory of all sketches of one program, so that a body is loaded once.
+std::shared_ptr<BodyShelf> make_shelf();
+
 /// Throws geometry::ContentError where the garment cannot be brought from the body that it was made for to
 /// the scene's. Cost: what is found of two bodies, 0.3 to 0.8 s each; none without such.
 void check_made_for(const Sketch& sketch, Listener& listener);

@@ -13,7 +13,7 @@ import { accessible, end, furrow, meshes, open, picture, replay, run, scratch, s
 /** What a button may say against being pressed where it has nothing to do. */
 const mayRefuse = { Keep: /no line to keep/, Maps: /texture coordinates/, "Moving GLB": /nothing has moved|cannot be done again/, PC2: /nothing has moved|cannot be done again/, Mirror: /lies in the middle/ };
 
-const isTool = /^(Look|Ridge|Valley|Pin)$/;  // of which one is always taken up
+const isTool = /^(Look|Ridge|Valley|Pin|Touch)$/;  // of which one is always taken up
 
 const difference = (a, b) => Math.max(...a.map((v, i) => Math.abs(v - b[i])));
 

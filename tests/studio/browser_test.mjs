@@ -334,9 +334,40 @@ async function gathered() {
   assert.notEqual(await seen.pixels(), before, "gathers are seen");
   assert.doesNotMatch(await seen.words(), /of its length, not/);
   await seen.shot("21-gathered");
+  await touched(seen, 4);
   replay("gathered");
   assert.deepEqual(seen.faults, []);
   await tab.close();
+}
+
+/** Cloth at rest is pinched by a click and pulled by a drag, each a step that is undone; a ring shows how far that reaches. */
+async function touched(seen, step) {
+  const { tab } = seen, place = await tab.locator("canvas").boundingBox();
+  const at = (x, y) => [place.x + x * place.width, place.y + y * place.height];
+  await tab.keyboard.press("i");
+  await tab.getByLabel("What a touch does").selectOption("pinch");
+  await tab.getByRole("slider", { name: "Radius of the touch" }).fill("60");
+  await accessible(seen, "touch");
+  await tab.mouse.move(...at(0.5, 0.5));
+  await until("the ring", async () => (await tab.locator(".ring polygon").getAttribute("points"))?.length > 20);
+  const before = await seen.pixels();
+  await tab.mouse.click(...at(0.5, 0.5));
+  await seen.at(step + 1);
+  await seen.answered();
+  assert.match(await seen.words(), /moved by up to [0-9.]+ mm/);
+  await seen.shot("22-pinched");
+  assert.notEqual(await seen.pixels(), before, "the pinch is seen");
+  await tab.getByLabel("What a touch does").selectOption("pull");
+  await tab.mouse.move(...at(0.6, 0.6));
+  await tab.mouse.down();
+  await tab.mouse.move(...at(0.62, 0.56), { steps: 4 });
+  await tab.mouse.up();
+  await seen.at(step + 2);
+  await seen.answered();
+  await tab.keyboard.press("Escape");
+  await tab.keyboard.press("Control+z");
+  await seen.at(step + 1);
+  await seen.answered();
 }
 
 /** Where its scene says that the line learns nothing, it is draped flat, which is said; a button goes back and keeps it. */

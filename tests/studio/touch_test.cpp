@@ -27,12 +27,14 @@ Json at_rest(Visitor& page, Json body) {
 
 }  // namespace
 
-TEST_CASE("studio touch: cloth at rest is touched, each touch is undone to the bit, and the log does it again") {
+TEST_CASE(
+    "studio touch: cloth at rest is touched, each touch is undone to the bit, and the log does it again") {
   const Desk desk("touch");
   {
     const studio::Studio studio(desk.scene, desk.project());
     Visitor page(studio);
-    CHECK(page.ask("touch", touch("iron")).at("refused").get<std::string>().find("rest") != std::string::npos);
+    CHECK(page.ask("touch", touch("iron")).at("refused").get<std::string>().find("rest") !=
+          std::string::npos);
     REQUIRE(page.ask("drape").contains("done"));
     page.ask("show");
     const std::string rested = page.cloth;
@@ -56,11 +58,14 @@ TEST_CASE("studio touch: cloth at rest is touched, each touch is undone to the b
   CHECK(report.difference == "");
 }
 
-TEST_CASE("studio touch: lines that are not at rest, no cloth there, and what is no touch are refused in words") {
+TEST_CASE(
+    "studio touch: lines that are not at rest, no cloth there, and what is no touch are refused in words") {
   const Desk desk("touch_refused");
   const studio::Studio studio(desk.scene, desk.project());
   Visitor page(studio);
-  const auto refusal = [&](const Json& body) { return page.ask("touch", body).at("refused").get<std::string>(); };
+  const auto refusal = [&](const Json& body) {
+    return page.ask("touch", body).at("refused").get<std::string>();
+  };
   REQUIRE(page.ask("drape").contains("done"));
   CHECK(refusal({}).find("no touch") != std::string::npos);
   CHECK(refusal({{"touch", {{"press", {0, 0, 0}}}}}).find("iron") != std::string::npos);

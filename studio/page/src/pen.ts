@@ -48,7 +48,7 @@ export class Pen {
   private pressure = 0; // now; 0: none is felt
   private pressures: number[] = []; // at each of the hits
   private sizing: { x: number; at: Hit } | null = null;
-  private ring: Ring;
+  readonly ring: Ring; // which a touch shows, too
 
   constructor(
     private view: View,

@@ -89,6 +89,7 @@ export class Studio {
     this.followPointer(canvas);
     this.touch = new Touch(
       this.view,
+      this.pen.ring,
       () => {
         const { tool, touch } = page.now();
         return { on: tool === "touch" && isIdle(page.now()), kind: touch.kind, radius: touch.radius };

@@ -2,7 +2,7 @@
 // The hand on cloth that rests: a click irons, steams or pinches it, a drag pulls it.
 import type { Vector3 } from "three";
 import type { Hit } from "./picker";
-import { Ring } from "./ring";
+import type { Ring } from "./ring";
 import type { View } from "./view";
 
 export type TouchKind = "iron" | "steam" | "pinch" | "pull";
@@ -19,17 +19,16 @@ export class Touch {
   private from: { hit: Hit; x: number; y: number } | null = null;
   private to: Vector3 | null = null;
   private last?: [number, number];
-  private ring: Ring;
 
   /** `touched`: `by`: the way of a pull [m]. */
   constructor(
     private view: View,
+    private ring: Ring,
     private settings: () => TouchSettings,
     private touched: (at: Vector3, by: Vector3 | null) => void,
   ) {
     const canvas = view.canvas;
-    this.ring = new Ring(view);
-    canvas.addEventListener("pointerleave", () => this.ring.hide());
+    canvas.addEventListener("pointerleave", () => (this.last = undefined));
     canvas.addEventListener("pointerdown", (e) => this.begin(e), { capture: true });
     canvas.addEventListener("pointermove", (e) => this.move(e), { capture: true });
     canvas.addEventListener("pointerup", (e) => this.end(e), { capture: true });
@@ -52,7 +51,8 @@ export class Touch {
   /** Shows how far it reaches, where the pointer is; `says`: and how far that is. */
   follow(says = false) {
     const { on, radius } = this.settings();
-    const hit = on && this.last ? this.view.picker.pick(...this.last) : null;
+    if (!on) return;
+    const hit = this.last ? this.view.picker.pick(...this.last) : null;
     if (hit) this.ring.show(hit, 2 * radius, says ? `${Math.round(1000 * radius)} mm` : "", false);
     else this.ring.hide();
   }

@@ -65,7 +65,8 @@ TEST_CASE("touch: ironing takes out what is narrower than it, and leaves what is
   }
 }
 
-TEST_CASE("touch: what was ironed is as long and as bent at rest as it lies then, half as much at half strength") {
+TEST_CASE(
+    "touch: what was ironed is as long and as bent at rest as it lies then, half as much at half strength") {
   Mesh whole = wavy_sheet(0.08, 0.01), half = whole;
   const Mesh before = whole;
   do_touch(whole, touch_at({0.5, 0.5, 0}, TouchKind::iron, 0.2));
@@ -80,7 +81,8 @@ TEST_CASE("touch: what was ironed is as long and as bent at rest as it lies then
     CHECK(s.rest_length ==
           Approx(std::sqrt(CGAL::squared_distance(whole.point(s.a), whole.point(s.b)))).epsilon(1e-12));
   for (const Vertex v : whole.vertices())
-    CHECK((half.point(v) - before.point(v) - 0.5 * (whole.point(v) - before.point(v))).squared_length() < 1e-24);
+    CHECK((half.point(v) - before.point(v) - 0.5 * (whole.point(v) - before.point(v))).squared_length() <
+          1e-24);
 }
 
 TEST_CASE("touch: ironing leaves a plane, strained cloth and what lies beyond the radius as they are") {
@@ -88,8 +90,7 @@ TEST_CASE("touch: ironing leaves a plane, strained cloth and what lies beyond th
   ensure_rest_lengths(plane);
   const Mesh flat = plane;
   do_touch(plane, touch_at({0.5, 0.5, 0}, TouchKind::iron, 0.3));
-  for (const Vertex v : plane.vertices())
-    CHECK((plane.point(v) - flat.point(v)).squared_length() < 1e-20);
+  for (const Vertex v : plane.vertices()) CHECK((plane.point(v) - flat.point(v)).squared_length() < 1e-20);
   Mesh wavy = wavy_sheet(0.08, 0.01);
   auto rest = find_map(wavy, attribute::rest_length).value();
   for (const Edge e : wavy.edges()) rest[e] *= 0.98;
@@ -115,7 +116,8 @@ TEST_CASE("touch: hinges that a fold bends are not bent to the other side where 
   do_touch(mesh, touch_at({0.5, 0.5, 0}, TouchKind::iron, 0.2));
   for (const Edge e : mesh.edges()) {
     if (mesh.is_border(e)) continue;
-    const double bent = std::abs(dihedral_angle(mesh, e) - angle[e]), was = std::abs(dihedral_angle(before, e));
+    const double bent = std::abs(dihedral_angle(mesh, e) - angle[e]),
+                 was = std::abs(dihedral_angle(before, e));
     CHECK(bent <= was + 1e-12);
   }
 }
@@ -170,8 +172,7 @@ TEST_CASE("touch: a pull moves the middle by its whole way") {
 
 TEST_CASE("touch: a sheet beside the touched one is left alone, and so are buttons") {
   Mesh mesh = grid(20, 20), other = grid(20, 20);
-  for (const Vertex v : other.vertices())
-    other.point(v) = other.point(v) + Vector(0, 0, -0.005);
+  for (const Vertex v : other.vertices()) other.point(v) = other.point(v) + Vector(0, 0, -0.005);
   const std::size_t first = mesh.number_of_vertices();
   append(mesh, other);
   const Touch touch = touch_at({0.5, 0.5, 0.001}, TouchKind::steam, 0.2);
@@ -190,7 +191,9 @@ TEST_CASE("touch: a sheet beside the touched one is left alone, and so are butto
 
 TEST_CASE("touch: what cannot be is refused, and the mesh stays") {
   Mesh mesh = grid(5, 5);
-  const auto refused = [&](Touch touch) { CHECK_THROWS_AS(touch_weights(mesh, touch), std::invalid_argument); };
+  const auto refused = [&](Touch touch) {
+    CHECK_THROWS_AS(touch_weights(mesh, touch), std::invalid_argument);
+  };
   refused(touch_at({0.5, 0.5, 0}, TouchKind::iron, 0));
   refused(touch_at({0.5, 0.5, 0}, TouchKind::iron, -1));
   refused(touch_at({0.5, 0.5, 0}, TouchKind::iron, 0.3, 0));
@@ -205,7 +208,9 @@ TEST_CASE("touch: what cannot be is refused, and the mesh stays") {
 TEST_CASE("touch: three hundred random touches leave sound cloth, and the same again") {
   const auto all = [] {
     std::mt19937 random(58);
-    const auto in = [&](double low, double high) { return low + (high - low) * double(random()) / 4294967295.0; };
+    const auto in = [&](double low, double high) {
+      return low + (high - low) * double(random()) / 4294967295.0;
+    };
     Mesh mesh = jittered(24, 24, 0.2, 3);
     lift(mesh, [](double x, double y) { return 0.03 * std::sin(9 * x) * std::cos(7 * y); });
     ensure_rest_lengths(mesh);

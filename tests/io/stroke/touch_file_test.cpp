@@ -45,7 +45,8 @@ TEST_CASE("touch_file: what is wrong is named with its touch") {
   };
   CHECK(error(R"({"touches": []})").find("one touch at least") != std::string::npos);
   CHECK(error(R"({"strokes": []})").find("one touch at least") != std::string::npos);
-  CHECK(error(R"({"touches": [{"iron": [0, 0, 0]}, {"iron": [0, 0]}]})").find("touch 2: ") != std::string::npos);
+  CHECK(error(R"({"touches": [{"iron": [0, 0, 0]}, {"iron": [0, 0]}]})").find("touch 2: ") !=
+        std::string::npos);
   CHECK(error(R"({"touches": [{"press": [0, 0, 0]}]})").find("one of iron, steam, pinch and pull") !=
         std::string::npos);
   CHECK(error(R"({"touches": [{"iron": [0, 0, 0], "steam": [0, 0, 0]}]})").find("one of iron") !=
@@ -53,7 +54,8 @@ TEST_CASE("touch_file: what is wrong is named with its touch") {
   CHECK(error(R"({"touches": [{"iron": [0, 0, 0], "by": [0, 0, 1]}]})").find("by") != std::string::npos);
   CHECK(error(R"({"touches": [{"pull": [0, 0, 0]}]})").find("needs its way") != std::string::npos);
   CHECK(error(R"({"touches": [{"iron": [0, 0, 0], "radius": 0}]})").find("radius") != std::string::npos);
-  CHECK(error(R"({"touches": [{"iron": [0, 0, 0], "strength": 1.5}]})").find("strength") != std::string::npos);
+  CHECK(error(R"({"touches": [{"iron": [0, 0, 0], "strength": 1.5}]})").find("strength") !=
+        std::string::npos);
   CHECK(error(R"({"touches": [7]})").find("must be an object") != std::string::npos);
   CHECK(error("{").find("t.json") != std::string::npos);
 }

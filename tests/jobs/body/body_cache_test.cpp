@@ -5,6 +5,7 @@
 #include <CGAL/boost/graph/Euler_operations.h>
 
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <nlohmann/json.hpp>
 
 #include "geometry/mesh/errors.h"
@@ -72,6 +73,31 @@ TEST_CASE("body_cache: a body is the same, and what is told of it, whether it wa
   CHECK(without.warned_of("body_holes_filled"));
   CHECK(texts_of(without) == texts_of(making));
   CHECK(texts_of(without) == texts_of(with));
+}
+
+TEST_CASE("body shelf: a body is loaded once, and anew where its file, its unit or its field is another") {
+  Ball ball("body_shelf");
+  ball.body.cache.clear();
+  jobs::MemoryFiles memory;
+  memory.shelf = std::make_shared<jobs::BodyShelf>();
+  const auto load = [&](const io::SceneBody& body) {
+    tests::Recorder told;
+    const jobs::BodyCollider loaded = jobs::load_body(body, {{}, told, &memory}, 1);
+    return std::pair(loaded.triangles.vertices, told.warned_of("body_holes_filled"));
+  };
+  const auto first = load(ball.body), again = load(ball.body);
+  CHECK(first.second);  // it is read, and its hole is told of
+  CHECK_FALSE(again.second);
+  CHECK(first.first == again.first);
+  io::SceneBody other = ball.body;
+  other.unit = "cm";
+  CHECK(load(other).second);
+  other = ball.body;
+  other.options.tolerance = 0.004;
+  CHECK(load(other).second);
+  fs::last_write_time(ball.body.mesh, fs::last_write_time(ball.body.mesh) + std::chrono::seconds(2));
+  CHECK(load(ball.body).second);
+  CHECK_FALSE(load(ball.body).second);
 }
 
 TEST_CASE("body_cache: another unit, another tolerance and another content are other files", "[long]") {

@@ -51,7 +51,8 @@ bool warns_of(const jobs::DrapeJobReport& report, const std::string& code) {
 
 }  // namespace
 
-TEST_CASE("jobs touch: cloth is touched where it rests, what is farther stays to the bit, and a drape keeps it") {
+TEST_CASE(
+    "jobs touch: cloth is touched where it rests, what is farther stays to the bit, and a drape keeps it") {
   jobs::DrapeJob job = rested_across_ball();
   const geometry::Mesh before = sheet_of(job);
   for (const TouchKind kind : {TouchKind::iron, TouchKind::steam, TouchKind::pinch, TouchKind::pull}) {
@@ -116,7 +117,9 @@ TEST_CASE("jobs touch: random touches leave sound cloth that rests, and the same
   const jobs::DrapeJob rested = rested_across_ball();
   const auto all = [&] {
     std::mt19937 random(59);
-    const auto in = [&](double low, double high) { return low + (high - low) * double(random()) / 4294967295.0; };
+    const auto in = [&](double low, double high) {
+      return low + (high - low) * double(random()) / 4294967295.0;
+    };
     jobs::DrapeJob job = rested;
     const geometry::Mesh& mesh = sheet_of(job);
     for (int i = 0; i < 40; ++i) {
