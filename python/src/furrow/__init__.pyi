@@ -215,6 +215,7 @@ def drape(
     self_contact: Optional[Literal["auto", "on", "off"]] = None,
     loose: Optional[Literal["hold", "drop", "fall"]] = None,
     budget: Optional[float] = None,
+    touches: Optional[Path] = None,
     residual: Optional[float] = None,
     contact_depth: Optional[float] = None,
     cloth_thickness: Optional[float] = None,

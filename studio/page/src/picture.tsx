@@ -34,6 +34,11 @@ function hintFor({ status, opening, tool }: State) {
       "Click the cloth to hold it there, or to let it go; Shift: the whole border. " +
       "Draw a loop to hold all within; Shift: to let it go. Esc: enough."
     );
+  if (tool === "touch")
+    return (
+      "Click the cloth where it rests: it is ironed, steamed or pinched there; to pull it, drag. " +
+      "[ and ]: how far it reaches. Esc: enough."
+    );
   if (tool !== "look")
     return (
       "Draw on the cloth; begin and end beside it to reach its border. Drag on the background to turn it. " +
