@@ -19,7 +19,6 @@
 namespace furrow::geometry {
 namespace {
 
-using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
 void check_touch(const Touch& touch) {
@@ -55,49 +54,65 @@ Vertex nearest_cloth(const Mesh& mesh, const Touch& touch) {
   return nearest;
 }
 
-/// What ironing may move: the vertices that it takes hold of.
+/// Cloth that is smoothed, wider than what is ironed, so that how it is held around does not matter there.
 struct IronedPatch {
-  std::vector<Vertex> vertices;
-  std::vector<int> index;    ///< by vertex: its place in `vertices`, or -1
-  std::vector<double> area;  ///< of each, a third of its faces' [m^2]
+  std::vector<Vertex> vertices;  ///< but for those of borders
+  std::vector<int> index;        ///< by vertex: its place there, or -1
+  std::vector<Vertex> border;    ///< vertices of borders
 };
 
 IronedPatch patch_of(const Mesh& mesh, const std::vector<double>& weights) {
   IronedPatch patch{{}, std::vector<int>(mesh.num_vertices(), -1), {}};
-  for (const Vertex v : mesh.vertices())
-    if (weights[v.idx()] > 0) {
-      patch.index[v.idx()] = int(patch.vertices.size());
-      patch.vertices.push_back(v);
+  for (const Vertex v : mesh.vertices()) {
+    if (!(weights[v.idx()] > 0)) continue;
+    if (mesh.is_border(v)) {
+      patch.border.push_back(v);
+      continue;
     }
-  patch.area.assign(patch.vertices.size(), 0);
+    patch.index[v.idx()] = int(patch.vertices.size());
+    patch.vertices.push_back(v);
+  }
   return patch;
 }
 
-/// Rows of the Laplacian at the patch's vertices, over all vertices of the mesh: by cotangents inside, along
-/// the border on it. Fills the patch's areas.
-SparseRows laplacian(const Mesh& mesh, IronedPatch& patch) {
-  Triplets entries;
+/// Lengths of all edges as the mesh lies [m], by index.
+std::vector<double> lengths_as_it_lies(const Mesh& mesh) {
   std::vector<double> lengths(mesh.num_edges(), 0);
   for (const Edge e : mesh.edges()) lengths[e.idx()] = spatial_length(mesh, e);
-  const auto add = [&](int row, Vertex to, double w) {
-    entries.emplace_back(row, int(to.idx()), w);
-    entries.emplace_back(row, int(patch.vertices[std::size_t(row)].idx()), -w);
-  };
+  return lengths;
+}
+
+/// How strongly ironing acts at a vertex: whole from a radius off borders, where folds end freely, and would
+/// flare, and not at all on them.
+double grip_at(const Mesh& mesh, const IronedPatch& patch, Vertex v, double radius) {
+  double nearest = radius * radius;
+  for (const Vertex b : patch.border)
+    nearest = std::min(nearest, CGAL::squared_distance(mesh.point(v), mesh.point(b)));
+  const double t = std::sqrt(nearest) / radius;
+  return t * t * (3 - 2 * t);
+}
+
+/// Rows of the Laplacian by cotangents at the patch's vertices, each over the root of its area: of these in
+/// `inner`, and what all others add in `held`. Fills the areas.
+void laplacian(const Mesh& mesh, const IronedPatch& patch, double radius, Triplets& inner,
+               Eigen::MatrixXd& held, Eigen::VectorXd& mass) {
+  const std::vector<double> lengths = lengths_as_it_lies(mesh);
   for (std::size_t i = 0; i < patch.vertices.size(); ++i) {
     const Vertex v = patch.vertices[i];
-    std::vector<Edge> rim;
-    for (const Halfedge h : mesh.halfedges_around_target(mesh.halfedge(v))) {
-      if (mesh.is_border(mesh.edge(h))) rim.push_back(mesh.edge(h));
-      if (mesh.is_border(h)) continue;
-      const auto [a, b, c] = edge_lengths(mesh, mesh.face(h), lengths);
-      patch.area[i] += triangle_area(a, b, c) / 3;
+    double area = 0;
+    for (const Face f : mesh.faces_around_target(mesh.halfedge(v))) {
+      const auto [a, b, c] = edge_lengths(mesh, f, lengths);
+      area += triangle_area(a, b, c) / 3;
     }
-    if (rim.size() == 2) {
-      const double sum = lengths[rim[0].idx()] + lengths[rim[1].idx()];
-      for (const Edge e : rim)
-        add(int(i), mesh.vertex(e, mesh.vertex(e, 0) == v), 2 / (lengths[e.idx()] * sum) * patch.area[i]);
-    }
-    if (!rim.empty()) continue;
+    area = std::max(area, 1e-16);
+    mass[Eigen::Index(i)] = area;
+    const double scale = grip_at(mesh, patch, v, radius) / std::sqrt(area);
+    const auto add = [&](Vertex to, double w) {
+      const int column = patch.index[to.idx()];
+      if (column >= 0) inner.emplace_back(int(i), column, w * scale);
+      if (column < 0)
+        for (int k = 0; k < 3; ++k) held(Eigen::Index(i), k) += w * scale * mesh.point(to)[k];
+    };
     for (const Halfedge in : mesh.halfedges_around_target(mesh.halfedge(v))) {
       double w = 0;
       for (const Halfedge h : {in, mesh.opposite(in)}) {
@@ -105,43 +120,34 @@ SparseRows laplacian(const Mesh& mesh, IronedPatch& patch) {
                      c = lengths[mesh.edge(mesh.prev(h)).idx()];
         w += bounded_cotangents(a, b, c)[0] / 2;
       }
-      add(int(i), mesh.source(in), w);
+      add(mesh.source(in), w);
+      add(v, -w);
     }
   }
-  SparseRows rows(int(patch.vertices.size()), int(mesh.num_vertices()));
-  rows.setFromTriplets(entries.begin(), entries.end());
-  return rows;
 }
 
-/// Where ironing puts the vertices of the patch, with all else held; empty where that has no solution.
-Eigen::MatrixXd ironed(const Mesh& mesh, IronedPatch& patch, double radius) {
-  const double t = std::pow(radius / std::numbers::pi, 4);
-  const SparseRows all = laplacian(mesh, patch);
-  const int n = int(patch.vertices.size());
+/// Where smoothing puts the patch's vertices, with all else held; empty where that has no solution.
+Eigen::MatrixXd ironed(const Mesh& mesh, const IronedPatch& patch, double radius) {
+  constexpr double wider = 1.4;  // of each pass, so that all halve waves of twice the radius
+  const double t = std::pow(wider * radius / std::numbers::pi, 4);
+  const auto n = Eigen::Index(patch.vertices.size());
   Triplets inner;
-  Eigen::MatrixXd held = Eigen::MatrixXd::Zero(n, 3), right = Eigen::MatrixXd::Zero(n, 3);
+  Eigen::MatrixXd held = Eigen::MatrixXd::Zero(n, 3), given(n, 3);
   Eigen::VectorXd mass(n);
-  for (int i = 0; i < n; ++i) {
-    mass[i] = std::max(patch.area[std::size_t(i)], 1e-16);
-    const Point& own = mesh.point(patch.vertices[std::size_t(i)]);
-    for (int k = 0; k < 3; ++k) right(i, k) = mass[i] * own[k];
-    for (SparseRows::InnerIterator it(all, i); it; ++it) {
-      const Vertex v = Vertex(Vertex::size_type(it.col()));
-      if (patch.index[v.idx()] >= 0)
-        inner.emplace_back(i, patch.index[v.idx()], it.value());
-      else
-        for (int k = 0; k < 3; ++k) held(i, k) += it.value() * mesh.point(v)[k];
-    }
-  }
-  Eigen::SparseMatrix<double> rows(n, n), matrix;
+  laplacian(mesh, patch, radius, inner, held, mass);
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (int k = 0; k < 3; ++k) given(i, k) = mesh.point(patch.vertices[std::size_t(i)])[k];
+  Eigen::SparseMatrix<double> rows(n, n);
   rows.setFromTriplets(inner.begin(), inner.end());
-  const Eigen::SparseMatrix<double> weighed = t * rows.transpose() * mass.cwiseInverse().asDiagonal();
-  matrix = weighed * rows;
+  const Eigen::SparseMatrix<double> weighed = t * rows.transpose();
+  Eigen::SparseMatrix<double> matrix = weighed * rows;
   matrix.diagonal() += mass;
-  right -= weighed * held;
+  const Eigen::MatrixXd right = mass.asDiagonal() * given - weighed * held;
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
   if (solver.info() != Eigen::Success) return {};
-  return solver.solve(right);
+  Eigen::MatrixXd smooth = solver.solve(right);
+  for (int again = 0; again < 2; ++again) smooth += solver.solve(mass.asDiagonal() * (given - smooth));
+  return smooth;
 }
 
 /// Puts the cloth where the touch has it.
@@ -150,7 +156,10 @@ void move_touched(Mesh& mesh, const Touch& touch, const std::vector<double>& wei
     for (const Vertex v : mesh.vertices())
       if (weights[v.idx()] > 0) mesh.point(v) = mesh.point(v) + weights[v.idx()] * touch.by;
   if (touch.kind != TouchKind::iron) return;
-  IronedPatch patch = patch_of(mesh, weights);
+  Touch wider = touch;
+  wider.radius *= 1.75;
+  const IronedPatch patch = patch_of(mesh, touch_weights(mesh, wider));
+  if (patch.vertices.empty()) return;
   const Eigen::MatrixXd smooth = ironed(mesh, patch, touch.radius);
   for (Eigen::Index i = 0; i < smooth.rows(); ++i) {
     const Vertex v = patch.vertices[std::size_t(i)];
@@ -297,8 +306,8 @@ std::vector<double> touch_weights(const Mesh& mesh, const Touch& touch) {
   check_touch(touch);
   const std::array<Vertex, 1> seed{nearest_cloth(mesh, touch)};
   if (!seed[0].is_valid()) refuse("touch", "no cloth lies within its radius");
-  std::vector<double> lengths(mesh.num_edges(), 0), weights(mesh.num_vertices(), 0);
-  for (const Edge e : mesh.edges()) lengths[e.idx()] = spatial_length(mesh, e);
+  const std::vector<double> lengths = lengths_as_it_lies(mesh);
+  std::vector<double> weights(mesh.num_vertices(), 0);
   for (const Vertex v : vertices_within(mesh, seed, 1.5 * largest_detour * touch.radius, lengths))
     if (!mesh.is_isolated(v))
       weights[v.idx()] = hold_at(std::sqrt(CGAL::squared_distance(mesh.point(v), touch.at)), touch.radius);
