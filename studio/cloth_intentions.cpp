@@ -249,7 +249,7 @@ Json Session::touch(const Json& body) {
   if (!body.contains("touch") || !body.at("touch").is_object()) throw Refused("touch: is no touch");
   const jobs::TouchedSketch touched = jobs::touch_sketch(sketch_, body.at("touch"), *this);
   take_result("touched", touched.kind, touched.file, nullptr);
-  return {{"moved", touched.moved}, {"balances", touched.balances}};
+  return {{"moved", touched.moved}, {"balances", touched.balances}, {"pairs", touched.crossings}};
 }
 
 void Session::require_brought(const std::string& what) const {

@@ -37,16 +37,16 @@ std::vector<double> touch_weights(const Mesh& mesh, const Touch& touch);
 /// weight and strength say. A pinch moves nothing and shortens lengths alone, to 1 - strength of them in the
 /// middle (less of it where triangles are too thin). Stiffnesses, struts, masses and connectivity stay, and
 /// all bits where the weight is 0.
-/// Unset lengths and angles count as the shape lies. What balances afterwards is for physics to say.
-/// Throws as touch_weights() and check_mesh(), the mesh untouched. Cost: a sparse factor of the patch.
+/// Unset lengths and angles count as the shape lies. What balances afterwards is for physics to say. Throws
+/// as touch_weights() and check_mesh(), the mesh untouched. Cost: a sparse factor of the patch.
 ///
-/// \details Ironing solves (M + t L' M^-1 L) x = M x0 in 1.75 times the radius, L the Laplacian by the cotangents of the
-/// cloth as it lies, M its areas, t = (1.4 radius / pi)^4, and adds what the same makes of the rest, x0 - x,
-/// twice (Tukey's twicing): waves of twice the radius keep half their height, half as long ones a twentieth,
-/// and twice as long ones lose a hundredth, so that ironing often does not shrink a sleeve. Within a radius
-/// of the cloth's borders t falls to 0, and what lies on them stays: cloth that ends freely would flare.
-/// Sources: M. Desbrun et al., "Implicit fairing of irregular
-/// meshes", SIGGRAPH 1999; J. Tukey, "Exploratory data analysis", 1977.
+/// \details Ironing solves (M + t L' M^-1 L) x = M x0 within 1.75 times the radius, L the Laplacian by the
+/// cotangents of the cloth as it lies, M its areas, t = (1.4 radius / pi)^4, and adds what the same makes of
+/// the rest, x0 - x, twice (Tukey's twicing): waves of twice the radius keep half their height, half as long
+/// ones a twentieth, and twice as long ones lose a hundredth, so that ironing often hardly shrinks a sleeve.
+/// Within a radius of the cloth's borders t falls to 0, and what lies on them stays: cloth that ends freely
+/// would flare. Sources: M. Desbrun et al., "Implicit fairing of irregular meshes", SIGGRAPH 1999; J. Tukey,
+/// "Exploratory data analysis", 1977.
 void apply_touch(Mesh& mesh, const Touch& touch, const std::vector<double>& weights);
 
 }  // namespace furrow::geometry

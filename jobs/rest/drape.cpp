@@ -8,6 +8,7 @@
 #include "io/scene/settings_schema.h"
 #include "jobs/base/budget.h"
 #include "jobs/base/card.h"
+#include "jobs/base/measure_crossings.h"
 #include "jobs/base/output_checks.h"
 #include "jobs/base/read_inputs.h"
 #include "jobs/cloth/fabric_file.h"
@@ -294,9 +295,12 @@ Touched touch(const DrapeJob& job, Listener& listener) {
   const BodyCollider* const on = body ? &*body : nullptr;
   GivenGarment given = read_given(open.scene, on, job.settings, false, context);
   const double gap = gap_of(given.scene, on, given.file.mesh, context);
+  const CrossedStart crossed = crossed_start(given.file.mesh);
   Touched touched;
   touched.touches = touch_garment(given, on, job.settings, gap, context);
   touched.file = std::move(given.file);
+  const std::size_t pairs = measure_crossings(touched.file, &crossed).pairs;
+  touched.crossings = pairs - std::min(pairs, crossed.pairs);
   return touched;
 }
 

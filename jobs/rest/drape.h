@@ -294,6 +294,7 @@ DrapeJobReport drape(const DrapeJob& job, Listener& listener);
 struct Touched {
   io::MeshFile file;  ///< [m], y up
   std::vector<TouchReport> touches;
+  std::size_t crossings = 0;  ///< pairs of faces that cross since
 };
 /// The touches of a drape of one garment alone: cloth that they do not reach stays where it lies. Writes
 /// nothing. Throws as drape(), and as touch_garment() does.

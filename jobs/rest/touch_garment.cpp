@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "bridge/arrays/convert.h"
+#include "bridge/draping/level_start.h"
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/rest/rest_angles.h"
@@ -48,9 +49,11 @@ void require_at_rest(const DrapePlan& plan, const io::MeshFile& file) {
         "before the garment rests");
 }
 
-/// The cloth around a touch comes to rest, all farther cloth held. Returns whether it balances.
-bool settle_around(const geometry::Touch& touch, const DrapePlan& plan, io::MeshFile& file,
-                   const std::function<bool()>& go_on, const Context& context) {
+/// The cloth around a touch, which lay at `before` [m], goes where the touch has it, through no cloth and out
+/// of the body, and comes to rest, all farther cloth held. Returns whether it balances.
+bool settle_around(const geometry::Touch& touch, const std::vector<physics::Vec3>& before,
+                   const DrapePlan& plan, io::MeshFile& file, const std::function<bool()>& go_on,
+                   const Context& context) {
   geometry::Touch around = touch;
   around.radius *= touch.kind == geometry::TouchKind::pinch ? 2.5 : 1.5;
   const std::vector<double> near = geometry::touch_weights(file.mesh, around);
@@ -66,9 +69,12 @@ bool settle_around(const geometry::Touch& touch, const DrapePlan& plan, io::Mesh
   options.settle.max_iterations = most_touch_iterations;
   options.settle.self.max_iterations = most_touch_iterations;
   options.settle.faces = {};
+  const physics::Collider* const body = plan.body ? &plan.body->field : nullptr;
+  bridge::DrapeLevel start;
+  const std::vector<physics::Vec3> wanted = cloth.particles.x;
+  bridge::begin_level(cloth, {before, wanted}, {wanted, bridge::PlaceNoise({}, 0), 0}, body, options, start);
   const physics::SettleReport report =
-      physics::settle(cloth, plan.body ? &plan.body->field : nullptr, options.settle,
-                      [&](const physics::SettleProgress&) { return go_on(); });
+      physics::settle(cloth, body, options.settle, [&](const physics::SettleProgress&) { return go_on(); });
   if (report.stopped) throw physics::Cancelled("touch: interrupted");
   for (const geometry::Vertex v : file.mesh->vertices())
     file.mesh->point(v) = bridge::to_cgal(cloth.particles.x[v.idx()]);
@@ -81,7 +87,7 @@ TouchReport touch_once(const geometry::Touch& touch, const DrapePlan& plan, io::
   TouchReport report{touch, 0, 0, false, 0, {}, bridge::positions_of(file.mesh), {}, {}};
   const std::vector<double> weights = geometry::touch_weights(file.mesh, touch);
   geometry::apply_touch(file.mesh, touch, weights);
-  report.balances = settle_around(touch, plan, file, go_on, context);
+  report.balances = settle_around(touch, report.before, plan, file, go_on, context);
   report.after = bridge::positions_of(file.mesh);
   for (std::size_t i = 0; i < weights.size(); ++i) {
     report.held.push_back(weights[i] > 0);

@@ -78,10 +78,11 @@ SketchAtRest drape_sketch(const Sketch& sketch, const Json& strokes, Listener& l
 
 /// A garment at rest that was touched.
 struct TouchedSketch {
-  io::MeshFile file;  ///< [m]
-  std::string kind;   ///< "iron"
-  double moved;       ///< the farthest way of a vertex [m]
-  bool balances;      ///< the cloth there came to rest
+  io::MeshFile file;      ///< [m]
+  std::string kind;       ///< "iron"
+  double moved;           ///< the farthest way of a vertex [m]
+  bool balances;          ///< the cloth there came to rest
+  std::size_t crossings;  ///< pairs of its faces that cross since
 };
 /// Does a touch, as one of a file's (io/stroke/touch_file.h; metres, y up), to the garment, and lets the
 /// cloth around it come to rest; all farther cloth stays. Throws as jobs::touch(), and physics::Cancelled.

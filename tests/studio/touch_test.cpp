@@ -44,6 +44,7 @@ TEST_CASE(
       REQUIRE(answer.contains("done"));
       CHECK(answer.at("done").at("moved") >= 0.0);
       CHECK(answer.at("done").at("balances") == true);
+      CHECK(answer.at("done").at("pairs") == 0);
       CHECK(page.status.at("undo") == kind);
     }
     CHECK(page.cloth != rested);

@@ -117,10 +117,11 @@ export class Studio {
       ...(by && { by: by.toArray() }),
     };
     this.page.set({ busy: "touch" });
-    await this.ask("touch", { touch }, ({ moved, balances }) =>
+    await this.ask("touch", { touch }, ({ moved, balances, pairs }) =>
       sentences(
         `The cloth moved by up to ${(1000 * moved!).toFixed(1)} mm there. Touch more, drape, or undo.`,
         balances ? undefined : "It has found no balance there yet; Drape lets it come to rest.",
+        pairs ? `Cloth crosses cloth since, ${pairs} faces: T shows where, Undo takes it back.` : undefined,
       ),
     );
     this.page.set({ busy: "", progress: undefined });

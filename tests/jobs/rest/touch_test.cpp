@@ -6,6 +6,7 @@
 
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/property_names.h"
+#include "jobs/base/measure_crossings.h"
 #include "jobs/rest/drape.h"
 #include "tests/jobs/job_folders.h"
 #include "tests/jobs/recorder.h"
@@ -83,6 +84,23 @@ TEST_CASE(
     const io::Json json = to_json(draped);
     CHECK(json.at("touches").at(0).at("kind") == geometry::word_of(kind));
     CHECK(draped.file.mesh->number_of_vertices() == before.number_of_vertices());
+  }
+}
+
+TEST_CASE("jobs touch: cloth that is pulled into the body or through other cloth stays out of both") {
+  jobs::DrapeJob job = rested_across_ball();
+  const geometry::Point hanging = place_of(job, true);
+  const geometry::Vector in =
+      0.02 / std::hypot(hanging.x(), hanging.z()) * geometry::Vector(-hanging.x(), 0, -hanging.z());
+  for (const geometry::Vector& by : {in, geometry::Vector(0, 0.1, 0), 4 * in}) {
+    job.settings.touches = {{TouchKind::pull, hanging, 0.06, 1, by}};
+    tests::Recorder quiet;
+    const jobs::Touched touched = jobs::touch(job, quiet);
+    CHECK(jobs::measure_crossings(touched.file).pairs == 0);
+    CHECK(touched.crossings == 0);
+    if (by != in) continue;
+    for (const geometry::Point& p : touched.file.mesh->points())
+      CHECK(std::sqrt((p - CGAL::ORIGIN).squared_length()) > 0.1);
   }
 }
 
