@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The public headers (furrow_public_headers() in the folders' CMakeLists.txt): at most 51, each of which includes public
+# The public headers (furrow_public_headers() in the folders' CMakeLists.txt): at most 52, each of which includes public
 # ones only and stands in docs/library.md, which lists no other; they are all that is installed. Those of bridge, io and
 # jobs include neither CGAL nor all of JSON, which cost seconds. With -DBINARY the build is installed into a prefix of its
 # own, and each header is compiled against that alone, as the first of a source.
 cmake_minimum_required(VERSION 3.25)
-set(most 51)
+set(most 52)
 set(public furrow/version.h)
 foreach(folder physics geometry bridge io jobs)
   if(NOT EXISTS ${ROOT}/${folder}/CMakeLists.txt)

@@ -10,6 +10,7 @@
 
 #include "geometry/fold/line_region.h"
 #include "geometry/mesh/edge_metric.h"
+#include "geometry/mesh/mesh.h"
 #include "geometry/mesh/preconditions.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/rest/bending_springs.h"
@@ -27,8 +28,10 @@ void check_touch(const Touch& touch) {
     refuse(me, "radius is " + std::to_string(touch.radius));
   if (!(touch.strength > 0 && touch.strength <= 1))
     refuse(me, "strength is " + std::to_string(touch.strength));
+  const Point at = touch.at;
+  const Vector by = touch.by;
   for (int k = 0; k < 3; ++k)
-    if (!std::isfinite(touch.at[k]) || !std::isfinite(touch.by[k])) refuse(me, "a number is not finite");
+    if (!std::isfinite(at[k]) || !std::isfinite(by[k])) refuse(me, "a number is not finite");
 }
 
 /// 1 up to half of the radius, 0 from the radius on.
@@ -43,7 +46,7 @@ Vertex nearest_cloth(const Mesh& mesh, const Touch& touch) {
   Vertex nearest;
   double least = touch.radius * touch.radius;
   for (const Vertex v : mesh.vertices()) {
-    const double d = CGAL::squared_distance(mesh.point(v), touch.at);
+    const double d = CGAL::squared_distance(mesh.point(v), Point(touch.at));
     if (d > least || mesh.is_isolated(v) || (d == least && nearest.is_valid())) continue;
     const auto on_cloth = [&](Face f) { return f.is_valid() && ((*rides)[f] == 1 || (*rides)[f] == 2); };
     const auto faces = mesh.faces_around_target(mesh.halfedge(v));
@@ -154,7 +157,7 @@ Eigen::MatrixXd ironed(const Mesh& mesh, const IronedPatch& patch, double radius
 void move_touched(Mesh& mesh, const Touch& touch, const std::vector<double>& weights) {
   if (touch.kind == TouchKind::pull)
     for (const Vertex v : mesh.vertices())
-      if (weights[v.idx()] > 0) mesh.point(v) = mesh.point(v) + weights[v.idx()] * touch.by;
+      if (weights[v.idx()] > 0) mesh.point(v) = mesh.point(v) + weights[v.idx()] * Vector(touch.by);
   if (touch.kind != TouchKind::iron) return;
   Touch wider = touch;
   wider.radius *= 1.75;
@@ -310,7 +313,8 @@ std::vector<double> touch_weights(const Mesh& mesh, const Touch& touch) {
   std::vector<double> weights(mesh.num_vertices(), 0);
   for (const Vertex v : vertices_within(mesh, seed, 1.5 * largest_detour * touch.radius, lengths))
     if (!mesh.is_isolated(v))
-      weights[v.idx()] = hold_at(std::sqrt(CGAL::squared_distance(mesh.point(v), touch.at)), touch.radius);
+      weights[v.idx()] =
+          hold_at(std::sqrt(CGAL::squared_distance(mesh.point(v), Point(touch.at))), touch.radius);
   return weights;
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "geometry/mesh/mesh.h"
+#include "geometry/mesh/mesh_fwd.h"
 
 namespace furrow::geometry {
 
@@ -18,11 +18,11 @@ const char* word_of(TouchKind kind);
 
 struct Touch {
   TouchKind kind = TouchKind::iron;
-  Point at{0, 0, 0};    ///< on the cloth [m]
-  double radius = 0.1;  ///< in which it works [m]; > 0, finite
+  Coordinates<Point> at = {};  ///< on the cloth [m]
+  double radius = 0.1;         ///< in which it works [m]; > 0, finite
   double strength =
-      1;               ///< share of it that is done in the middle; of a pinch, of length that goes; in (0, 1]
-  Vector by{0, 0, 0};  ///< way of a pull [m]; finite
+      1;  ///< share of it that is done in the middle; of a pinch, of length that goes; in (0, 1]
+  Coordinates<Vector> by = {};  ///< way of a pull [m]; finite
 };
 
 /// How much a touch takes hold of each vertex, by index: 1 in the inner half of its radius, falling smoothly

@@ -62,7 +62,7 @@ std::vector<CardRow> card(DrapeJob& job) {
        "nearest cloth; drop takes them out; fall drapes them as the rest"},
       {"budget", rest, everyone, &job.budget, endless,
        "processor time after which the best state so far is the end, which is no success [s]"},
-      {"touches", rest, everyone, &s.touch_file,
+      {"touches", rest, few, &s.touch_file,
        "what a hand does to it before, as a file (.json): iron, steam, pinch, pull (docs/tailor.md)"},
       {"residual", rest, few, &s.residual, positive,
        "largest net force on a vertex, over its weight, at which it rests"},

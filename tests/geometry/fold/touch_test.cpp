@@ -112,10 +112,12 @@ TEST_CASE("touch: ironing leaves a plane, strained cloth and what lies beyond th
   const auto old = find_map(before, attribute::rest_length).value();
   for (const Edge e : wavy.edges()) CHECK(rest[e] == Approx(0.98 * spatial_length(wavy, e)).epsilon(1e-12));
   for (const Vertex v : wavy.vertices())
-    if (CGAL::squared_distance(before.point(v), touch.at) > 0.15 * 0.15)
+    if (CGAL::squared_distance(before.point(v), Point(touch.at)) > 0.15 * 0.15)
       CHECK(wavy.point(v) == before.point(v));
   for (const Edge e : wavy.edges()) {
-    const auto far = [&](Vertex v) { return CGAL::squared_distance(before.point(v), touch.at) > 0.0225; };
+    const auto far = [&](Vertex v) {
+      return CGAL::squared_distance(before.point(v), Point(touch.at)) > 0.0225;
+    };
     if (far(wavy.vertex(e, 0)) && far(wavy.vertex(e, 1))) CHECK(rest[e] == old[e]);
   }
 }
@@ -178,7 +180,7 @@ TEST_CASE("touch: a pull moves the middle by its whole way") {
   const Mesh before = mesh;
   apply_touch(mesh, touch, weights);
   for (const Vertex v : mesh.vertices())
-    CHECK((mesh.point(v) - before.point(v) - weights[v.idx()] * touch.by).squared_length() < 1e-24);
+    CHECK((mesh.point(v) - before.point(v) - weights[v.idx()] * Vector(touch.by)).squared_length() < 1e-24);
   CHECK(*std::max_element(weights.begin(), weights.end()) == 1);
 }
 
@@ -190,7 +192,8 @@ TEST_CASE("touch: a sheet beside the touched one is left alone, and so are butto
   const Touch touch = touch_at({0.5, 0.5, 0.001}, TouchKind::steam, 0.2);
   const std::vector<double> weights = touch_weights(mesh, touch);
   for (std::size_t i = 0; i < weights.size(); ++i) {
-    const bool near = CGAL::squared_distance(mesh.point(Vertex(Vertex::size_type(i))), touch.at) < 0.039;
+    const bool near =
+        CGAL::squared_distance(mesh.point(Vertex(Vertex::size_type(i))), Point(touch.at)) < 0.039;
     CHECK((weights[i] > 0) == (i < first && near));
   }
   auto rides = ensure_map(mesh, attribute::rides);

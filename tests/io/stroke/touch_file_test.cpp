@@ -26,14 +26,14 @@ TEST_CASE("touch_file: touches are read in their order, in unit and axes of the 
   const auto touches = io::touches_from(text, "t.json", options);
   REQUIRE(touches.size() == 4);
   CHECK(touches[0].kind == TouchKind::iron);
-  CHECK(touches[0].at == Point(0.1, 0.3, -0.2));
+  CHECK(Point(touches[0].at) == Point(0.1, 0.3, -0.2));
   CHECK(touches[0].radius == 0.1);
   CHECK(touches[0].strength == 1);
   CHECK(touches[1].kind == TouchKind::pinch);
   CHECK(touches[1].radius == 0.05);
   CHECK(touches[1].strength == 0.3);
   CHECK(touches[2].kind == TouchKind::pull);
-  CHECK(touches[2].by == Vector(0.01, 0.03, -0.02));
+  CHECK(Vector(touches[2].by) == Vector(0.01, 0.03, -0.02));
   CHECK(touches[2].strength == 0.5);
   CHECK(touches[3].kind == TouchKind::steam);
   CHECK(touches[3].strength == 0.25);
