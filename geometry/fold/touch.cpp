@@ -150,6 +150,7 @@ Eigen::MatrixXd ironed(const Mesh& mesh, const IronedPatch& patch, double radius
   if (solver.info() != Eigen::Success) return {};
   Eigen::MatrixXd smooth = solver.solve(right);
   for (int again = 0; again < 2; ++again) smooth += solver.solve(mass.asDiagonal() * (given - smooth));
+  if (!smooth.allFinite()) return {};
   return smooth;
 }
 
@@ -307,6 +308,7 @@ const char* word_of(TouchKind kind) {
 
 std::vector<double> touch_weights(const Mesh& mesh, const Touch& touch) {
   check_touch(touch);
+  check_mesh(mesh, "touch");
   const std::array<Vertex, 1> seed{nearest_cloth(mesh, touch)};
   if (!seed[0].is_valid()) refuse("touch", "no cloth lies within its radius");
   const std::vector<double> lengths = lengths_as_it_lies(mesh);

@@ -28,7 +28,7 @@ struct Touch {
 /// How much a touch takes hold of each vertex, by index: 1 in the inner half of its radius, falling smoothly
 /// to 0 at the radius. Only cloth that ways along edges join to the vertex nearest to `at`; a sleeve beside
 /// the body's cloth is left alone. Throws std::invalid_argument for a number out of its range, or where no
-/// vertex with a face is within the radius. O(vertices).
+/// vertex with a face is within the radius; and as check_mesh(). O(half-edges).
 std::vector<double> touch_weights(const Mesh& mesh, const Touch& touch);
 
 /// Does it to shape and rest state. `weights`: of touch_weights(). Ironing and pulling move vertices: rest

@@ -182,6 +182,9 @@ void add_geometry(std::vector<Door>& all) {
                    taubin_smooth(m, {}, o);
                  },
                  removed});
+  const Touch ironing{TouchKind::iron, Point(0.15, 0.15, 0), 0.1, 1, {}};
+  all.push_back({"touch_weights", [ironing](M m) { touch_weights(m, ironing); }});
+  all.push_back({"apply_touch", [ironing](M m) { apply_touch(m, ironing, touch_weights(m, ironing)); }});
   for (const auto rule : {InsertionRule::safe, InsertionRule::paper, InsertionRule::fold})
     all.push_back({"wrinkle", [rule](M m) { wrinkle(m, ridge(), with_rule(rule, 1)); }});
   all.push_back({"loop_subdivide", [](M m) { loop_subdivide(m, 1); }, removed});
