@@ -271,7 +271,8 @@ TouchedSketch touch_sketch(const Sketch& sketch, const Json& wanted, Listener& l
   job.settings.touches = io::touches_from(Json{{"touches", {wanted}}}.dump(), "the studio");
   Touched touched = touch(job, listener);
   const TouchReport& report = touched.touches.at(0);
-  return {std::move(touched.file), geometry::word_of(report.touch.kind), report.moved, report.balances, touched.crossings};
+  return {std::move(touched.file), geometry::word_of(report.touch.kind), report.moved, report.balances,
+          touched.crossings};
 }
 
 void write_sketched(const Sketch& sketch, const io::MeshFile& file, const fs::path& path,
