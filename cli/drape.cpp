@@ -187,18 +187,19 @@ void add_placed(Lines& lines, const Json& placed) {
                   " of it began inside the body");
 }
 
-/// Of one garment on a body.
 void add_touches(Lines& lines, const Json& report) {
-  if (!report.contains("touches")) return;
   std::size_t i = 0;
-  for (const Json& t : list_of(report, "touches"))
-    lines.push_back(fmt::format("touch {} ({}): moved {} vertices by up to {:.1f} mm{}", ++i,
-                                text_of(t, "kind"), count_of(t, "vertices"), 1000 * value_of(t, "moved"),
-                                !std::isfinite(value_of(t, "remains"))
-                                    ? ""
-                                    : fmt::format(", {:.0f} % of it remain", 100 * value_of(t, "remains"))));
+  for (const Json& t : list_of(report, "touches")) {
+    const double remains = value_of(t, "remains");
+    lines.push_back(fmt::format("touch {} ({}): moved {} vertices by up to {:.1f} mm", ++i,
+                                text_of(t, "kind"), count_of(t, "vertices"), 1000 * value_of(t, "moved")) +
+                    (remains >= 0.995         ? ", all of it remains"
+                     : std::isfinite(remains) ? fmt::format(", {:.0f} % of it remain", 100 * remains)
+                                              : ""));
+  }
 }
 
+/// Of one garment on a body.
 void add_draped(Lines& lines, const Json& report) {
   const Json& levels = list_of(report, "levels");
   const long long vertices = levels.empty() ? 0 : count_of(levels.back(), "vertices");

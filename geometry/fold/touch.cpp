@@ -16,6 +16,7 @@
 #include "geometry/rest/bending_springs.h"
 #include "geometry/rest/rest_angles.h"
 #include "geometry/rest/rest_metric.h"
+#include "geometry/rest/rest_state.h"
 
 namespace furrow::geometry {
 namespace {
@@ -34,11 +35,14 @@ void check_touch(const Touch& touch) {
     if (!std::isfinite(at[k]) || !std::isfinite(by[k])) refuse(me, "a number is not finite");
 }
 
-/// 1 up to half of the radius, 0 from the radius on.
-double hold_at(double distance, double radius) {
-  const double t = std::clamp(2 * (1 - distance / radius), 0.0, 1.0);
+/// From 0 to 1 without a kink, as t goes there.
+double eased(double t) {
+  t = std::clamp(t, 0.0, 1.0);
   return t * t * (3 - 2 * t);
 }
+
+/// 1 up to half of the radius, 0 from the radius on.
+double hold_at(double distance, double radius) { return eased(2 * (1 - distance / radius)); }
 
 /// The vertex nearest to the touch within its radius; buttons and what else rides on cloth is passed over.
 Vertex nearest_cloth(const Mesh& mesh, const Touch& touch) {
@@ -91,8 +95,7 @@ double grip_at(const Mesh& mesh, const IronedPatch& patch, Vertex v, double radi
   double nearest = radius * radius;
   for (const Vertex b : patch.border)
     nearest = std::min(nearest, CGAL::squared_distance(mesh.point(v), mesh.point(b)));
-  const double t = std::sqrt(nearest) / radius;
-  return t * t * (3 - 2 * t);
+  return eased(std::sqrt(nearest) / radius);
 }
 
 /// Rows of the Laplacian by cotangents at the patch's vertices, each over the root of its area: of these in
@@ -154,12 +157,13 @@ Eigen::MatrixXd ironed(const Mesh& mesh, const IronedPatch& patch, double radius
   return smooth;
 }
 
-/// Puts the cloth where the touch has it.
-void move_touched(Mesh& mesh, const Touch& touch, const std::vector<double>& weights) {
-  if (touch.kind == TouchKind::pull)
-    for (const Vertex v : mesh.vertices())
-      if (weights[v.idx()] > 0) mesh.point(v) = mesh.point(v) + weights[v.idx()] * Vector(touch.by);
-  if (touch.kind != TouchKind::iron) return;
+void pull_cloth(Mesh& mesh, const Touch& touch, const std::vector<double>& weights) {
+  for (const Vertex v : mesh.vertices())
+    if (const double share = weights[v.idx()] * touch.strength; share > 0)
+      mesh.point(v) = mesh.point(v) + share * Vector(touch.by);
+}
+
+void iron_cloth(Mesh& mesh, const Touch& touch, const std::vector<double>& weights) {
   Touch wider = touch;
   wider.radius *= 1.75;
   const IronedPatch patch = patch_of(mesh, touch_weights(mesh, wider));
@@ -260,23 +264,10 @@ void take_shape(Mesh& mesh, const Blend& blend) {
 
 /// Rest lengths go along as the cloth was moved, so that its strain stays, and what bends it goes where its
 /// bend went.
-void go_along(Mesh& mesh, const Mesh& before) {
-  const auto has_moved = [&](Vertex v) { return mesh.point(v) != before.point(v); };
-  const auto carried = [](double rest, double now, double then) {
-    return then > 0 ? rest * now / then : now;
-  };
-  change_lengths(
-      mesh,
-      [&](double rest, Edge e) {
-        const bool moved = has_moved(mesh.vertex(e, 0)) || has_moved(mesh.vertex(e, 1));
-        return moved ? carried(rest, spatial_length(mesh, e), spatial_length(before, e)) : rest;
-      },
-      [&](const BendingSpring& s) {
-        const bool moved = has_moved(s.a) || has_moved(s.b);
-        return moved ? carried(s.rest_length, distance_of(mesh, s), distance_of(before, s)) : s.rest_length;
-      });
+void go_along(Mesh& mesh, const RestSnapshot& before) {
+  apply_rest_rule(mesh, before, RestRule::drawn);
   change_angles(mesh, [&](double rest, Edge e) {
-    const double now = dihedral_angle(mesh, e), then = dihedral_angle(before, e);
+    const double now = dihedral_angle(mesh, e), then = before.angles[e.idx()];
     if (now == then) return rest;
     const double left = then == 0 ? 0 : std::clamp(now / then, 0.0, 1.0);
     return std::clamp(now + left * (rest - then), -std::numbers::pi, std::numbers::pi);
@@ -330,8 +321,8 @@ void apply_touch(Mesh& mesh, const Touch& touch, const std::vector<double>& weig
   const Blend blend(touch, weights);
   if (touch.kind == TouchKind::pinch) return shorten(mesh, blend);
   if (touch.kind == TouchKind::steam) return take_shape(mesh, blend);
-  const Mesh before = mesh;
-  move_touched(mesh, touch, weights);
+  const RestSnapshot before = take_rest_snapshot(mesh);
+  touch.kind == TouchKind::iron ? iron_cloth(mesh, touch, weights) : pull_cloth(mesh, touch, weights);
   go_along(mesh, before);
 }
 

@@ -18,10 +18,9 @@ const char* word_of(TouchKind kind);
 
 struct Touch {
   TouchKind kind = TouchKind::iron;
-  Coordinates<Point> at = {};  ///< on the cloth [m]
-  double radius = 0.1;         ///< in which it works [m]; > 0, finite
-  double strength =
-      1;  ///< share of it that is done in the middle; of a pinch, of length that goes; in (0, 1]
+  Coordinates<Point> at = {};   ///< on the cloth [m]
+  double radius = 0.1;          ///< in which it works [m]; > 0, finite
+  double strength = 1;          ///< share that is done in the middle; of a pinch, that goes; in (0, 1]
   Coordinates<Vector> by = {};  ///< way of a pull [m]; finite
 };
 
@@ -32,13 +31,13 @@ struct Touch {
 std::vector<double> touch_weights(const Mesh& mesh, const Touch& touch);
 
 /// Does it to shape and rest state. `weights`: of touch_weights(). Ironing and pulling move vertices: rest
-/// lengths and springs go along, so that strain stays, and hinges keep what bends them as far as their bend
-/// is kept. Steam moves nothing, and takes rest lengths, springs and angles to those of the shape, as far as
-/// weight and strength say. A pinch moves nothing and shortens lengths alone, to 1 - strength of them in the
-/// middle (less of it where triangles are too thin). Stiffnesses, struts, masses and connectivity stay, and
-/// all bits where the weight is 0.
-/// Unset lengths and angles count as the shape lies. What balances afterwards is for physics to say. Throws
-/// as touch_weights() and check_mesh(), the mesh untouched. Cost: a sparse factor of the patch.
+/// lengths, springs and struts go along (apply_rest_rule()), so that strain stays, and hinges keep what bends
+/// them as far as their bend is kept. Steam moves nothing, and takes rest lengths, springs and angles to
+/// those of the shape, as far as weight and strength say. A pinch moves nothing and shortens lengths alone,
+/// to 1 - strength of them in the middle (less of it where triangles are too thin). Stiffnesses, masses and
+/// connectivity stay, and all bits where the weight is 0. Unset lengths and angles count as the shape lies.
+/// What balances afterwards is for physics to say. Throws as touch_weights() and check_mesh(), the mesh
+/// untouched. Cost: a sparse factor of the patch.
 ///
 /// \details Ironing solves (M + t L' M^-1 L) x = M x0 within 1.75 times the radius, L the Laplacian by the
 /// cotangents of the cloth as it lies, M its areas, t = (1.4 radius / pi)^4, and adds what the same makes of

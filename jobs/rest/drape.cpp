@@ -161,6 +161,12 @@ io::TomlDocument with_fabric(const DrapeJob& job, io::TomlDocument document) {
   return document;
 }
 
+/// None: the garment hangs from its pins.
+std::optional<BodyCollider> body_of(const OpenScene& open, const Context& context) {
+  if (!open.scene.body) return std::nullopt;
+  return load_body(*open.scene.body, context, tolerance_for(open.scene.simulation.contact_gap));
+}
+
 /// That of the innermost garment; the others' are checked with it.
 OpenScene open_scene(const DrapeJob& job, const GarmentScenes& all, Listener& listener) {
   OpenScene open{{}, with_fabric(job, all.front()), job.scene.folder, {}};
@@ -252,9 +258,7 @@ DrapeJobReport drape_all(const DrapeJob& job, Listener& listener) {
   const OpenScene open = open_scene(job, all, listener);
   const std::vector<io::Scene> scenes = scenes_of(job, open);
   const Context context{open.frame, listener, &job.scene.memory};
-  std::optional<BodyCollider> body;
-  if (open.scene.body)
-    body.emplace(load_body(*open.scene.body, context, tolerance_for(open.scene.simulation.contact_gap)));
+  std::optional<BodyCollider> body = body_of(open, context);
   if (const std::filesystem::path& made_for = job.settings.made_for; !made_for.empty())
     body->made_for =
         std::make_shared<const MadeFor>(read_made_for(made_for, body->triangles, *open.scene.body, context));
@@ -289,12 +293,10 @@ Touched touch(const DrapeJob& job, Listener& listener) {
   const GarmentScenes all = garment_scenes(job);
   const OpenScene open = open_scene(job, all, listener);
   const Context context{open.frame, listener, &job.scene.memory};
-  std::optional<BodyCollider> body;
-  if (open.scene.body)
-    body.emplace(load_body(*open.scene.body, context, tolerance_for(open.scene.simulation.contact_gap)));
+  const std::optional<BodyCollider> body = body_of(open, context);
   const BodyCollider* const on = body ? &*body : nullptr;
   GivenGarment given = read_given(open.scene, on, job.settings, false, context);
-  const double gap = gap_of(given.scene, on, given.file.mesh, context);
+  const double gap = gap_in_use(given.scene, on, job.settings, given.file.mesh, context);
   const CrossedStart crossed = crossed_start(given.file.mesh);
   Touched touched;
   touched.touches = touch_garment(given, on, job.settings, gap, context);

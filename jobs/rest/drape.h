@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,7 @@ struct TouchReport {
   std::optional<double> remains;
   std::vector<physics::Vec3> before = {}, after = {};  ///< places of all vertices [m]
   std::vector<char> held = {};                         ///< by vertex: it took hold of it
+  std::set<std::size_t> lines = {};                    ///< ids of lines that it took hold of
 };
 
 /// What draping knows beyond a scene.

@@ -266,7 +266,7 @@ Draped drape_garment(const io::Scene& asked, const BodyCollider* body, const Dra
                      const Context& context) {
   GivenGarment given = read_given(asked, body, s, choose, context);
   const io::Scene& scene = given.scene;
-  const double gap = s.gap.value_or(0) > 0 ? *s.gap : gap_of(scene, body, given.file.mesh, context);
+  const double gap = gap_in_use(scene, body, s, given.file.mesh, context);
   std::vector<TouchReport> touches = touch_garment(given, body, s, gap, context);
   DrapePlan plan{scene, body, s, given.file, drape_options_of(scene, s, gap), given.places()};
   plan.options.interrupted = [&context] { return context.listener.cancelled_by_user(); };

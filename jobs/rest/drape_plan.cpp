@@ -136,6 +136,11 @@ double gap_of(const io::Scene& scene, const BodyCollider* body, const geometry::
   return gap;
 }
 
+double gap_in_use(const io::Scene& scene, const BodyCollider* body, const DrapeSettings& s,
+                  const geometry::Mesh& garment, const Context& context) {
+  return s.gap.value_or(0) > 0 ? *s.gap : gap_of(scene, body, garment, context);
+}
+
 double WayToRest::share(const physics::SettleProgress& p) {
   if (p.residual <= tolerance_) return 1;
   if (!std::isfinite(p.residual)) return 0;

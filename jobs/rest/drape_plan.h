@@ -47,6 +47,10 @@ bridge::DrapeOptions drape_options_of(const io::Scene& scene, const DrapeSetting
 double gap_of(const io::Scene& scene, const BodyCollider* body, const geometry::Mesh& garment,
               const Context& context);
 
+/// That of the settings, else gap_of().
+double gap_in_use(const io::Scene& scene, const BodyCollider* body, const DrapeSettings& settings,
+                  const geometry::Mesh& garment, const Context& context);
+
 /// The garment as it was given, and the scene with as many refinements as it is draped with.
 struct GivenGarment {
   io::Scene scene;

@@ -174,9 +174,12 @@ void remark_on_other_way(const Draped& d, Remarks& say) {
              other.outcome, other.crossings);
 }
 
-/// Lines that lost their height, or have no vertex left to measure it by.
+/// Lines that lost their height, unless a touch took hold of them, or have no vertex left to measure it by.
 void remark_on_lines(const Draped& d, std::vector<DrapeRemark>& remarks) {
-  for (const Warning& lost : lost_lines({}, d.lines)) remarks.push_back({false, lost});
+  std::vector<LineReport> untouched = d.lines;
+  for (const TouchReport& t : d.touches)
+    std::erase_if(untouched, [&t](const LineReport& line) { return t.lines.contains(line.id); });
+  for (const Warning& lost : lost_lines({}, untouched)) remarks.push_back({false, lost});
   const auto record = io::find_wrinkle_record(d.file);
   std::string gone;
   for (std::size_t id = 0; record && id < record->lines.size(); ++id)

@@ -89,6 +89,9 @@ TouchReport touch_once(const geometry::Touch& touch, const DrapePlan& plan, io::
   geometry::apply_touch(file.mesh, touch, weights);
   report.balances = settle_around(touch, report.before, plan, file, go_on, context);
   report.after = bridge::positions_of(file.mesh);
+  const auto line = geometry::find_map(file.mesh, geometry::attribute::line);
+  for (const geometry::Vertex v : file.mesh->vertices())
+    if (line && weights[v.idx()] > 0 && (*line)[v] >= 0) report.lines.insert(std::size_t((*line)[v]));
   for (std::size_t i = 0; i < weights.size(); ++i) {
     report.held.push_back(weights[i] > 0);
     report.vertices += std::size_t(report.held[i]);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // furrow drape: a garment comes to rest on a body; wrong calls.
 #include <catch2/catch.hpp>
+#include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
 
@@ -76,6 +77,27 @@ TEST_CASE("drape: it brings the skirt to rest on the mannequin and tells how it 
   CHECK(json::parse(read_text(scratch / "a.json")).contains("eye"));
   CHECK(std::filesystem::file_size(scratch / "a.pc2") >
         12 * worn.mesh->number_of_vertices() * r["levels"][0]["iterations"].get<std::size_t>());
+}
+
+TEST_CASE("drape: what it wrote is touched, and a file that does not rest is refused", "[release]") {
+  ScratchDirectory scratch;
+  const std::string worn = scratch / "worn.ply", touches = scratch / "touches.json",
+                    touched = scratch / "touched.ply", on_body = " --body " + mannequin_path();
+  drape_report("drape " + skirt() + " --subdivide 0 -o " + worn);
+  const geometry::Point at = io::read_mesh(worn).mesh->point(geometry::Vertex(700));
+  std::ofstream(touches) << json{{"touches", {{{"pinch", {at.x(), at.y(), at.z()}}, {"radius", 0.06}}}}};
+  const std::string call = on_body + " --touches " + touches + " --replace -o " + touched;
+  const json report = drape_report("drape " + worn + call);
+  CHECK(report["touches"][0]["kind"] == "pinch");
+  CHECK(report["touches"][0]["remains"] > 0.9);
+  CHECK(report["crossings"]["pairs"] == 0);
+  CHECK(run_furrow("drape " + worn + call).out.find("touch 1 (pinch): moved ") != std::string::npos);
+  const Run fresh = run_furrow("drape " + (source_dir() / "meshes/skirt.obj").string() + call);
+  CHECK(fresh.exit_code == 3);
+  CHECK(fresh.err.find("has no rest state; take the PLY that furrow drape") != std::string::npos);
+  const Run refined = run_furrow("drape " + worn + " --subdivide 1" + call);
+  CHECK(refined.exit_code == 2);
+  CHECK(refined.err.find("--touches change the rest state") != std::string::npos);
 }
 
 TEST_CASE("drape: it brings the skirt to rest with the same bits twice", "[release]") {

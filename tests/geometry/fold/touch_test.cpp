@@ -172,7 +172,7 @@ TEST_CASE("touch: a pinch shortens cloth, most in the middle, and leaves every t
   }
 }
 
-TEST_CASE("touch: a pull moves the middle by its whole way") {
+TEST_CASE("touch: a pull moves the middle by its whole way, or as much of it as it is strong") {
   Mesh mesh = wavy_sheet(10, 0, 40);
   Touch touch = touch_at({0.5, 0.5, 0}, TouchKind::pull, 0.2);
   touch.by = {0.01, 0, 0.03};
@@ -182,6 +182,12 @@ TEST_CASE("touch: a pull moves the middle by its whole way") {
   for (const Vertex v : mesh.vertices())
     CHECK((mesh.point(v) - before.point(v) - weights[v.idx()] * Vector(touch.by)).squared_length() < 1e-24);
   CHECK(*std::max_element(weights.begin(), weights.end()) == 1);
+  Mesh half = before;
+  touch.strength = 0.5;
+  apply_touch(half, touch, weights);
+  for (const Vertex v : half.vertices())
+    CHECK((half.point(v) - before.point(v) - 0.5 * (mesh.point(v) - before.point(v))).squared_length() <
+          1e-24);
 }
 
 TEST_CASE("touch: a sheet beside the touched one is left alone, and so are buttons") {

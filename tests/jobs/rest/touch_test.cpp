@@ -34,15 +34,12 @@ const geometry::Mesh& sheet_of(const jobs::DrapeJob& job) { return job.scene.mem
 
 /// Of the sheet: on the ball, or where it hangs beside it.
 geometry::Point place_of(const jobs::DrapeJob& job, bool hanging) {
-  const geometry::Mesh& mesh = sheet_of(job);
-  geometry::Point best(0, 0, 0);
-  double most = -1;
-  for (const geometry::Point& p : mesh.points()) {
-    const double far = std::hypot(p.x(), p.z()), score = hanging ? -std::abs(far - 0.13) : -far;
-    if (most < 0 && score <= most) continue;
-    if (most == -1 || score > most) best = p, most = score;
-  }
-  return best;
+  const auto off = [&](const geometry::Point& p) {
+    return std::abs(std::hypot(p.x(), p.z()) - (hanging ? 0.13 : 0));
+  };
+  const auto points = sheet_of(job).points();
+  return *std::min_element(points.begin(), points.end(),
+                           [&](const auto& p, const auto& q) { return off(p) < off(q); });
 }
 
 bool warns_of(const jobs::DrapeJobReport& report, const std::string& code) {
@@ -147,7 +144,6 @@ TEST_CASE("jobs touch: random touches leave sound cloth that rests, and the same
       job.settings.touches.push_back(
           {kind, mesh.point(v), in(0.03, 0.1), strength, {in(-0.01, 0.01), in(0, 0.02), in(-0.01, 0.01)}});
     }
-    std::vector<geometry::Touch> reached;
     tests::Recorder quiet;
     std::size_t done = 0;
     for (const geometry::Touch& touch : std::exchange(job.settings.touches, {})) try {
