@@ -4,7 +4,7 @@
 
 #include "cli/common.h"
 #include "cli/subcommands.h"
-#include "io/base/lower_case.h"
+#include "io/base/figure_path.h"
 #include "io/stroke/stroke_file.h"
 #include "jobs/base/read_inputs.h"
 #include "jobs/draw/stroke_list.h"

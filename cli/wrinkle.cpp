@@ -13,7 +13,7 @@
 #include "cli/subcommands.h"
 #include "geometry/mesh/errors.h"
 #include "io/base/field_words.h"
-#include "io/base/lower_case.h"
+#include "io/base/figure_path.h"
 #include "io/picture/png_file.h"
 #include "io/picture/render_scene.h"
 #include "io/scene/relocated.h"

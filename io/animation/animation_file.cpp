@@ -14,7 +14,7 @@
 #include "geometry/mesh/preconditions.h"
 #include "io/animation/animation_encoder.h"
 #include "io/base/atomic_file.h"
-#include "io/base/lower_case.h"
+#include "io/base/figure_path.h"
 #include "io/base/spool.h"
 #include "io/mesh/file_frame.h"
 

@@ -10,6 +10,7 @@
 
 #include "geometry/mesh/errors.h"
 #include "io/base/atomic_file.h"
+#include "io/base/figure_path.h"
 
 namespace furrow::io {
 namespace {
@@ -86,7 +87,7 @@ void write_bytes(const std::filesystem::path& path, std::span<const std::byte> b
 }
 
 std::string content_hash(const std::filesystem::path& path) {
-  const std::string text = read_text(path);
+  const std::string text = read_text(file_of_figure(path));
   return content_hash(std::as_bytes(std::span(text)));
 }
 

@@ -27,7 +27,7 @@ void write_bytes(const std::filesystem::path& path, std::span<const std::byte> b
 
 /// 16 hexadecimal digits that tell one file's content from another's (not safe against forgery). Throws what
 /// read_text() throws. Source: FNV-1a, 64 bits (RFC 9923).
-std::string content_hash(const std::filesystem::path& path);
+std::string content_hash(const std::filesystem::path& path);  // of a figure: of its file
 std::string content_hash(std::span<const std::byte> bytes);
 
 }  // namespace furrow::io

@@ -12,12 +12,16 @@ using nlohmann::json;
 using physics::Vec3;
 
 int GltfAccessors::add(std::size_t count, int component, const char* type, std::size_t bytes, int target) {
-  views.push_back({{"buffer", 0}, {"byteOffset", offset_}, {"byteLength", bytes}});
+  const std::size_t view = add_view(bytes);
   if (target) views.back()["target"] = target;
-  accessors.push_back(
-      {{"bufferView", views.size() - 1}, {"componentType", component}, {"count", count}, {"type", type}});
-  offset_ += bytes;
+  accessors.push_back({{"bufferView", view}, {"componentType", component}, {"count", count}, {"type", type}});
   return static_cast<int>(accessors.size()) - 1;
+}
+
+std::size_t GltfAccessors::add_view(std::size_t bytes) {
+  views.push_back({{"buffer", 0}, {"byteOffset", offset_}, {"byteLength", bytes}});
+  offset_ += bytes;
+  return views.size() - 1;
 }
 
 void GltfAccessors::bound(const json& low, const json& high) {

@@ -37,6 +37,8 @@ class GltfAccessors {
   /// The number of a new one of `bytes`, a multiple of 4, behind the last; `target` 0: neither vertices nor
   /// indices.
   int add(std::size_t count, int component, const char* type, std::size_t bytes, int target);
+  /// The number of a new view of that many bytes, a multiple of 4, behind the last.
+  std::size_t add_view(std::size_t bytes);
   /// The least and the largest of the last one.
   void bound(const nlohmann::json& low, const nlohmann::json& high);
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -39,6 +40,39 @@ std::pair<std::string_view, std::string_view> chunks_of(std::string_view bytes) 
   return chunks;
 }
 
+constexpr std::size_t most_numbers = std::size_t{1} << 28;  // of an accessor
+
+/// Source: glTF 2.0, 3.11: c / 255, max(c / 127, -1) …
+template <class T>
+float number_at(const char* bytes, bool normalized) {
+  const auto c = static_cast<float>(read_in_order<T>(bytes, std::endian::little));
+  return normalized ? std::max(c / static_cast<float>(std::numeric_limits<T>::max()), -1.0F) : c;
+}
+
+float component_at(const char* bytes, int type, bool normalized) {
+  switch (type) {
+    case 5120:
+      return number_at<std::int8_t>(bytes, normalized);
+    case 5121:
+      return number_at<std::uint8_t>(bytes, normalized);
+    case 5122:
+      return number_at<std::int16_t>(bytes, normalized);
+    case gltf_unsigned_short:
+      return number_at<std::uint16_t>(bytes, normalized);
+    case gltf_float:
+      return read_in_order<float>(bytes, std::endian::little);
+    default:
+      return number_at<std::uint32_t>(bytes, normalized);
+  }
+}
+
+std::uint32_t whole_number_at(const char* bytes, int type) {
+  if (type == 5121) return read_in_order<std::uint8_t>(bytes, std::endian::little);
+  if (type == gltf_unsigned_short) return read_in_order<std::uint16_t>(bytes, std::endian::little);
+  if (type == gltf_unsigned_int) return read_in_order<std::uint32_t>(bytes, std::endian::little);
+  throw ContentError("an accessor's indices are of no known type");
+}
+
 }  // namespace
 
 GltfDocument::GltfDocument(std::string_view bytes, const OpenBeside& open) : open_(open) {
@@ -69,7 +103,9 @@ std::string_view GltfDocument::buffer_of(std::size_t number) {
     place->second = from_base64(std::string_view(uri).substr(comma + 1));
   } else {
     std::optional<std::string> content = open_(gltf_file_of(uri));
-    if (!content) throw ContentError("the buffer '" + uri + "' is not to be had");
+    if (!content)
+      throw ContentError("it names '" + uri +
+                         "', which is no file in its folder or below; lay the file there");
     place->second = std::move(*content);
   }
   return place->second;
@@ -89,6 +125,50 @@ std::string GltfDocument::elements_of(const json& accessor) {
   return elements;
 }
 
+const json& GltfDocument::accessor(const json& number) const {
+  const json& accessors = list_of(root, "accessors");
+  return accessors[index_in(accessors, number)];
+}
+
+std::vector<float> GltfDocument::numbers_of(const json& accessor) {
+  const int type = accessor.at("componentType").get<int>();
+  const std::size_t count = count_of(accessor, "count"), width = gltf_width(accessor),
+                    step = gltf_element_size(accessor) / width;
+  if (step == 0) throw ContentError("an accessor is of no known type");
+  if (count > most_numbers / width) throw ContentError("an accessor has too many elements");
+  const auto decoded = [&](const std::string& bytes) {
+    std::vector<float> numbers;
+    for (std::size_t at = 0; at < bytes.size(); at += step)
+      numbers.push_back(component_at(&bytes[at], type, accessor.value("normalized", false)));
+    return numbers;
+  };
+  std::vector<float> numbers;
+  if (accessor.contains("bufferView")) numbers = decoded(elements_of(accessor));
+  numbers.resize(count * width, 0);
+  const json sparse = accessor.value("sparse", json::object());
+  if (sparse.empty()) return numbers;
+  json at = sparse.at("indices"), values = sparse.at("values");
+  at.update({{"type", "SCALAR"}, {"count", sparse.at("count")}});
+  values.update({{"type", accessor.at("type")}, {"componentType", type}, {"count", sparse.at("count")}});
+  const std::vector<std::uint32_t> elements = whole_numbers_of(at);
+  const std::vector<float> given = decoded(elements_of(values));
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    if (elements[i] >= count) throw ContentError("an accessor names an element that it does not have");
+    std::copy_n(&given[i * width], width, &numbers[elements[i] * width]);
+  }
+  return numbers;
+}
+
+std::vector<std::uint32_t> GltfDocument::whole_numbers_of(const json& accessor) {
+  const int type = accessor.at("componentType").get<int>();
+  const std::string bytes = elements_of(accessor);
+  const std::size_t step = gltf_element_size(accessor) / gltf_width(accessor);
+  std::vector<std::uint32_t> numbers;
+  for (std::size_t at = 0; step > 0 && at < bytes.size(); at += step)
+    numbers.push_back(whole_number_at(&bytes[at], type));
+  return numbers;
+}
+
 std::string GltfDocument::serialized(std::string_view added) {
   if (!added.empty())
     root["buffers"].push_back({{"byteLength", added.size()},
@@ -100,14 +180,19 @@ std::string GltfDocument::serialized(std::string_view added) {
   return glb_head(root, binary.size()) + binary;
 }
 
+std::size_t gltf_width(const json& accessor) {
+  static const std::map<std::string, std::size_t> widths = {
+      {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT4", 16}};
+  const auto width = widths.find(accessor.value("type", ""));
+  if (width == widths.end()) throw ContentError("an accessor is of no known type");
+  return width->second;
+}
+
 std::size_t gltf_element_size(const json& accessor) {
   static const std::map<int, std::size_t> components = {{5120, 1}, {5121, 1}, {5122, 2},
                                                         {5123, 2}, {5125, 4}, {5126, 4}};
-  static const std::map<std::string, std::size_t> widths = {
-      {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT4", 16}};
   const auto component = components.find(accessor.value("componentType", 0));
-  const auto width = widths.find(accessor.value("type", ""));
-  return component == components.end() || width == widths.end() ? 0 : component->second * width->second;
+  return component == components.end() ? 0 : component->second * gltf_width(accessor);
 }
 
 const json& list_of(const json& from, const char* name) {

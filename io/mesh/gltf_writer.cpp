@@ -17,7 +17,8 @@
 #include "io/base/byte_order.h"
 #include "io/mesh/file_frame.h"
 #include "io/mesh/glb_container.h"
-#include "io/mesh/gltf_source.h"
+#include "io/mesh/gltf_document.h"
+#include "io/mesh/gltf_nodes.h"
 #include "io/mesh/mesh_writers.h"
 
 namespace furrow::io {
@@ -45,10 +46,26 @@ struct GltfCorner {
   bool operator==(const GltfCorner& other) const = default;
 };
 
+/// A shape key of a node's mesh.
+struct GltfKey {
+  std::array<std::optional<VertexMap<double>>, 3> moves;  ///< by axis, in the node's frame; nothing: 0
+  double shown = 0;                                       ///< how far the node shows it
+  bool with_normals = false;                              ///< whether it came with moves of normals
+  std::vector<Float3> normals = {};                       ///< then: those of the scene with it
+
+  Vec3 move_of(Vertex v) const {
+    Vec3 move = Vec3::Zero();
+    for (int axis = 0; axis < 3; ++axis)
+      if (const auto& along = moves[static_cast<std::size_t>(axis)]) move[axis] = (*along)[v];
+    return move;
+  }
+};
+
 /// What becomes one node's mesh.
 struct GltfPart {
   int node = -1;            ///< -1: a node of its own
   Eigen::Matrix4d to_node;  ///< from the scene
+  std::vector<GltfKey> keys = {};
   /// The document's material, -1: none; and whether they are backs, which are linings.
   std::map<std::pair<int, bool>, std::vector<Face>> by_material;
 };
@@ -73,10 +90,10 @@ class GltfMeshWriter {
   std::string bytes() {
     GltfAccessors accessors(binary_.size());
     accessors.accessors = document_["accessors"], accessors.views = document_["bufferViews"];
-    json meshes = json::array();
-    for (const GltfPart& part : parts()) add_part(part, meshes, accessors);
+    for (const GltfPart& part : parts()) add_part(part, accessors);
     clear_unused_nodes();
-    document_["meshes"] = std::move(meshes);
+    fill_meshes();
+    document_["meshes"] = std::move(meshes_);
     document_["accessors"] = std::move(accessors.accessors);
     document_["bufferViews"] = std::move(accessors.views);
     document_["buffers"] = json::array({{{"byteLength", binary_.size()}}});
@@ -104,7 +121,8 @@ class GltfMeshWriter {
   void take_source() {
     document_ = json::parse(file_.gltf->document);
     binary_ = file_.gltf->binary;
-    names_ = document_.value("meshes", json::array());
+    meshes_ = document_.value("meshes", json::array());
+    joints_ = joint_attributes(document_);
     const json& nodes = document_["nodes"];
     parents_.assign(nodes.size(), -1);
     for (std::size_t n = 0; n < nodes.size(); ++n)
@@ -179,7 +197,7 @@ class GltfMeshWriter {
   }
 
   static GltfPart part_at(const GltfSource::Place* place) {
-    GltfPart part{-1, Eigen::Matrix4d::Identity(), {}};
+    GltfPart part{-1, Eigen::Matrix4d::Identity(), {}, {}};
     if (!place || place->node < 0) return part;
     const Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> to_scene(place->to_scene.data());
     const Eigen::FullPivLU<Eigen::Matrix4d> inverse(to_scene);
@@ -193,24 +211,22 @@ class GltfMeshWriter {
     if (part.node < 0 || !document_["nodes"].at(part.node).contains("skin")) return std::nullopt;
     const json& skin = document_["skins"].at(document_["nodes"][part.node]["skin"].get<std::size_t>());
     Skinning skinning;
-    std::set<std::string> taken;
     std::size_t least = std::numeric_limits<std::size_t>::max();
     for (const json& joint : skin.at("joints")) {
       const std::size_t node = joint.get<std::size_t>();
-      const std::string name = document_["nodes"].at(node).value("name", "");
-      const std::string attribute =
-          weight_attribute(name.empty() ? "nodes[" + std::to_string(node) + "]" : name);
       auto& weights = skinning.joints.emplace_back();
-      if (!taken.insert(attribute).second)
-        lost_.push_back("the weights of joint '" + name +
-                        "', whose name differs from another joint's in blanks alone; rename it");
-      else
-        for (const VertexAttribute& a : attributes_)
-          if (a.name == attribute) weights = a.values, carried_.insert(attribute);
+      if (const VertexAttribute* known = attribute_named(joints_.at(node))) weights = known->values;
       const std::size_t depth = depth_of(static_cast<int>(node));
       if (depth < least) least = depth, skinning.root = skinning.joints.size() - 1;
     }
     return skinning;
+  }
+
+  /// Null: the mesh has none of that name. What is asked for is carried.
+  const VertexAttribute* attribute_named(const std::string& name) {
+    carried_.insert(name);
+    const auto found = std::ranges::find(attributes_, name, &VertexAttribute::name);
+    return found == attributes_.end() ? nullptr : &*found;
   }
 
   std::size_t depth_of(int node) const {
@@ -219,26 +235,79 @@ class GltfMeshWriter {
     return depth;
   }
 
-  void add_part(const GltfPart& part, json& meshes, GltfAccessors& accessors) {
+  void add_part(GltfPart part, GltfAccessors& accessors) {
     const std::optional<Skinning> skinning = skinning_of(part);
-    json mesh = json::object(), primitives = json::array();
-    if (part.node >= 0) mesh = names_.at(document_["nodes"][part.node].at("mesh").get<std::size_t>());
+    std::size_t slot = meshes_.size();
+    json mesh = {{"name", "cloth"}};
+    if (part.node >= 0) {
+      json& node = document_["nodes"][part.node];
+      const std::size_t own = node.at("mesh").get<std::size_t>();
+      mesh = meshes_.at(own);
+      if (anew_.insert(own).second && is_made_anew(mesh)) slot = own;
+      part.keys = keys_of(part, mesh, node);
+      node["mesh"] = slot;
+      filled_.insert(part.node);
+    } else {
+      filled_.insert(static_cast<int>(document_["nodes"].size()));
+      document_["scenes"][0]["nodes"].push_back(document_["nodes"].size());
+      document_["nodes"].push_back({{"mesh", slot}, {"name", "cloth"}});
+    }
+    json primitives = json::array();
     for (const auto& [side, faces] : part.by_material) {
       json& primitive = primitives.emplace_back(json::object());
       if (side.first >= 0) primitive["material"] = side.first;
       add_primitive(part, faces, side.second, skinning, primitive, accessors);
     }
     mesh["primitives"] = std::move(primitives);
-    if (part.node >= 0) {
-      document_["nodes"][part.node]["mesh"] = meshes.size();
-      filled_.insert(part.node);
-    } else {
-      if (!mesh.contains("name")) mesh["name"] = "cloth";
-      filled_.insert(static_cast<int>(document_["nodes"].size()));
-      document_["scenes"][0]["nodes"].push_back(document_["nodes"].size());
-      document_["nodes"].push_back({{"mesh", meshes.size()}, {"name", "cloth"}});
+    if (slot == meshes_.size()) meshes_.emplace_back();
+    meshes_[slot] = std::move(mesh);
+  }
+
+  /// A mesh that was read: its primitives are gone, but for the names of keys.
+  static bool is_made_anew(const json& mesh) {
+    return list_of(mesh, "primitives").empty() || !mesh["primitives"][0].contains("attributes");
+  }
+
+  /// Those of the mesh that was read, and the shape of the part without what its node shows of them.
+  std::vector<GltfKey> keys_of(const GltfPart& part, const json& mesh, const json& node) {
+    std::vector<GltfKey> keys;
+    const json& weights = list_of(list_of(node, "weights").empty() ? mesh : node, "weights");
+    const std::vector<std::string> names = gltf_key_names(mesh);
+    for (const std::string& name : names) {
+      const json& targets = list_of(mesh["primitives"][0], "targets");
+      GltfKey& key = keys.emplace_back();
+      for (int axis = 0; axis < 3; ++axis)
+        if (const VertexAttribute* known = attribute_named(key_attribute(name, axis)))
+          key.moves[static_cast<std::size_t>(axis)] = known->values;
+      key.with_normals = keys.size() <= targets.size() && targets[keys.size() - 1].contains("NORMAL");
+      if (keys.size() <= weights.size()) key.shown = weights[keys.size() - 1].get<double>();
     }
-    meshes.push_back(std::move(mesh));
+    const Eigen::Matrix3d to_scene = part.to_node.topLeftCorner<3, 3>().inverse();
+    std::set<Vertex> vertices;
+    for (const auto& [side, faces] : part.by_material)
+      for (const Face f : faces)
+        for (const Vertex v : mesh_.vertices_around_face(mesh_.halfedge(f))) vertices.insert(v);
+    for (const GltfKey& key : keys)
+      for (const Vertex v : vertices)
+        if (key.shown != 0) points_[v] -= key.shown * (to_scene * key.move_of(v));
+    normals_ = smooth_normals(bridge::triangles_of(mesh_), points_);
+    for (GltfKey& key : keys) {
+      if (!key.with_normals) continue;
+      std::vector<Vec3> moved = points_;
+      for (const Vertex v : vertices) moved[v] += to_scene * key.move_of(v);
+      key.normals = smooth_normals(bridge::triangles_of(mesh_), moved);
+    }
+    return keys;
+  }
+
+  /// Meshes that have no face any more keep their numbers, as what no node shows.
+  void fill_meshes() {
+    const auto with_faces = std::ranges::find_if(meshes_, [](const json& m) { return !is_made_anew(m); });
+    for (json& mesh : meshes_) {
+      if (!is_made_anew(mesh)) continue;
+      mesh["primitives"] = (*with_faces)["primitives"];
+      for (const char* of_keys : {"weights", "extras"}) mesh.erase(of_keys);
+    }
   }
 
   /// Triangles of one material or their backs, and the vertices that they need.
@@ -270,9 +339,79 @@ class GltfMeshWriter {
         add(accessors, indices, 3 * faces.size(), gltf_unsigned_int, "SCALAR", gltf_indices);
     json& attributes = primitive["attributes"];
     add_shape(part, corners, backs, attributes, accessors);
-    if (textures || uses_texture(primitive)) add_textures(corners, attributes, accessors);
+    const auto has_texture = [](const GltfCorner& c) {
+      return c.texture != gltf_texture(attribute::texture.default_value);
+    };
+    if (std::ranges::any_of(corners, has_texture) || uses_texture(primitive))
+      add_textures(corners, attributes, accessors);
     add_colors(corners, attributes, accessors);
     if (skinning) add_weights(*skinning, corners, attributes, accessors);
+    for (const GltfKey& key : part.keys)
+      primitive["targets"].push_back(target_of(part, key, corners, backs, accessors));
+  }
+
+  json target_of(const GltfPart& part, const GltfKey& key, const std::vector<GltfCorner>& corners, bool backs,
+                 GltfAccessors& accessors) {
+    std::vector<Float3> moves, turns;
+    for (const GltfCorner& corner : corners) {
+      const Vec3 move = key.move_of(corner.vertex);
+      moves.push_back(
+          {static_cast<float>(move[0]), static_cast<float>(move[1]), static_cast<float>(move[2])});
+      if (!key.with_normals) continue;
+      const Float3 from = direction_of(part, normals_[corner.vertex], backs),
+                   to = direction_of(part, key.normals[corner.vertex], backs);
+      turns.push_back({to[0] - from[0], to[1] - from[1], to[2] - from[2]});
+    }
+    json target{{"POSITION", add_moves(moves, accessors)}};
+    if (key.with_normals) target["NORMAL"] = add_moves(turns, accessors);
+    return target;
+  }
+
+  /// An accessor without a view is 0 everywhere but at its sparse elements.
+  int add_moves(const std::vector<Float3>& moves, GltfAccessors& accessors) {
+    std::string indices, values;
+    Float3 low = {}, high = {};
+    std::uint32_t moved = 0;
+    for (std::size_t i = 0; i < moves.size(); ++i) {
+      if (moves[i] == Float3{}) continue;
+      ++moved;
+      append_in_order(indices, static_cast<std::uint32_t>(i), std::endian::little);
+      append_all(values, moves[i]);
+    }
+    for (std::size_t i = 0; i < moves.size(); ++i)
+      for (std::size_t k = 0; k < 3; ++k)
+        low[k] = i == 0 ? moves[i][k] : std::min(low[k], moves[i][k]),
+        high[k] = i == 0 ? moves[i][k] : std::max(high[k], moves[i][k]);
+    if (2 * std::size_t{moved} > moves.size()) {
+      std::string all;
+      for (const Float3& move : moves) append_all(all, move);
+      const int number = add(accessors, all, moves.size(), gltf_float, "VEC3", gltf_vertex_data);
+      accessors.bound(low, high);
+      return number;
+    }
+    json accessor{{"componentType", gltf_float}, {"count", moves.size()}, {"type", "VEC3"}};
+    if (moved > 0) {
+      json at{{"componentType", gltf_unsigned_int}}, given = json::object();
+      at["bufferView"] = add_view(accessors, indices), given["bufferView"] = add_view(accessors, values);
+      accessor["sparse"] = {{"count", moved}, {"indices", at}, {"values", given}};
+    }
+    accessors.accessors.push_back(std::move(accessor));
+    accessors.bound(low, high);
+    return static_cast<int>(accessors.accessors.size()) - 1;
+  }
+
+  std::size_t add_view(GltfAccessors& accessors, const std::string& bytes) {
+    binary_ += bytes;
+    return accessors.add_view(bytes.size());
+  }
+
+  /// A unit normal of the scene in the part's node.
+  static Float3 direction_of(const GltfPart& part, const Float3& n, bool backs) {
+    const Eigen::Matrix3d turned = part.to_node.topLeftCorner<3, 3>().inverse().transpose();
+    Vec3 normal = (backs ? -1 : 1) * turned * Vec3(n[0], n[1], n[2]);
+    if (!(normal.norm() > 0)) normal = Vec3(0, 1, 0);
+    normal.normalize();
+    return {static_cast<float>(normal[0]), static_cast<float>(normal[1]), static_cast<float>(normal[2])};
   }
 
   int add(GltfAccessors& accessors, const std::string& bytes, std::size_t count, int component,
@@ -283,19 +422,15 @@ class GltfMeshWriter {
 
   void add_shape(const GltfPart& part, const std::vector<GltfCorner>& corners, bool backs, json& attributes,
                  GltfAccessors& accessors) {
-    const Eigen::Matrix3d turned = part.to_node.topLeftCorner<3, 3>().inverse().transpose();
     std::string positions, normals;
     Float3 low, high;
     low.fill(std::numeric_limits<float>::max()), high.fill(std::numeric_limits<float>::lowest());
     for (const GltfCorner& corner : corners) {
       const Vec3 x = (part.to_node * points_[corner.vertex].homogeneous()).head<3>();
-      const Float3 n = normals_[corner.vertex];
-      Vec3 normal = (backs ? -1 : 1) * turned * Vec3(n[0], n[1], n[2]);
-      if (!(normal.norm() > 0)) normal = Vec3(0, 1, 0);
-      normal.normalize();
-      Float3 place, direction;
+      const Float3 direction = direction_of(part, normals_[corner.vertex], backs);
+      Float3 place;
       for (int k = 0; k < 3; ++k) {
-        place[k] = static_cast<float>(x[k]), direction[k] = static_cast<float>(normal[k]);
+        place[k] = static_cast<float>(x[k]);
         low[k] = std::min(low[k], place[k]), high[k] = std::max(high[k], place[k]);
       }
       if (!std::isfinite(low[0] + low[1] + low[2] + high[0] + high[1] + high[2]))
@@ -372,10 +507,13 @@ class GltfMeshWriter {
     return {numbers, parts};
   }
 
+  /// Nodes that were read and have no face any more.
   void clear_unused_nodes() {
-    for (std::size_t n = 0; n < document_["nodes"].size(); ++n)
-      if (!filled_.contains(static_cast<int>(n)))
-        document_["nodes"][n].erase("mesh"), document_["nodes"][n].erase("skin");
+    if (!file_.gltf) return;
+    for (const GltfSource::Place& place : file_.gltf->places)
+      if (place.node >= 0 && !filled_.contains(place.node))
+        for (const char* of_mesh : {"mesh", "skin", "weights"})
+          document_["nodes"].at(place.node).erase(of_mesh);
   }
 
   static void collect_extensions(const json& value, std::set<std::string>& names) {
@@ -407,16 +545,21 @@ class GltfMeshWriter {
       lost_.push_back(
           "the rest of " + std::to_string(unweighted_.size()) +
           " vertices without skin weights, which now follow the skeleton's root; give them weights");
-    std::string bound, others;
+    std::string bound, keys, others;
     for (const VertexAttribute& a : attributes_) {
       if (carried_.contains(a.name)) continue;
-      std::string& names = a.name.starts_with("weight_") ? bound : others;
+      std::string& names = a.name.starts_with("weight_") ? bound : a.name.starts_with("key_") ? keys : others;
       names += (names.empty() ? "" : ", ") + a.name;
     }
     if (!bound.empty())
       lost_.push_back("the skin weights " + bound +
                       ", whose joints are in no skeleton of a glTF that was read; furrow transfer SOURCE.glb "
                       "takes the shape back to a mesh that has one");
+    if (!keys.empty())
+      lost_.push_back(
+          "the shape keys " + keys +
+          ", which the glTF that was read does not have; furrow transfer SOURCE.glb takes the shape back "
+          "to a mesh that has them");
     if (!others.empty()) lost_.push_back("the vertex attributes " + others + "; a PLY keeps them");
   }
 
@@ -447,7 +590,8 @@ class GltfMeshWriter {
   const Mesh& mesh_;
   const WriteOptions& options_;
   bool has_source_ = false;
-  json document_, names_ = json::array();
+  json document_, meshes_ = json::array();
+  std::vector<std::string> joints_;  ///< attributes, by node
   std::string binary_;
   std::vector<int> parents_;  ///< by node
   std::map<int, int> plain_;  ///< the document's materials, by those of the mesh
@@ -455,6 +599,7 @@ class GltfMeshWriter {
   std::vector<Float3> normals_;
   std::vector<VertexAttribute> attributes_ = vertex_attributes(file_.mesh);
   std::set<std::string> carried_;  ///< of the attributes
+  std::set<std::size_t> anew_;     ///< meshes that were read, and have a node
   std::set<int> filled_;           ///< nodes that have a mesh
   std::set<Vertex> crowded_, unweighted_;
   std::vector<std::string> lost_;

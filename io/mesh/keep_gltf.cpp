@@ -7,6 +7,7 @@
 
 #include "geometry/mesh/errors.h"
 #include "io/mesh/gltf_document.h"
+#include "io/mesh/gltf_nodes.h"
 
 namespace furrow::io {
 namespace {
@@ -35,121 +36,81 @@ bool touches_geometry(const json& value) {
   if (!value.is_structured()) return false;
   for (const auto& [key, inner] : value.items()) {
     for (const char* word :
-         {"bufferView", "bufferViews", "accessor", "accessors", "mesh", "meshes", "primitives", "attributes"})
+         {"bufferView", "bufferViews", "accessor", "accessors", "primitives", "attributes"})
       if (value.is_object() && key == word) return true;
     if (touches_geometry(inner)) return true;
   }
   return false;
 }
 
-/// Takes out what names shape keys in VRM 1.0 (VRMC_vrm, expressions); whether there was any.
-bool drop_key_binds(json& value) {
-  if (!value.is_structured()) return false;
-  bool dropped = value.is_object() && value.erase("morphTargetBinds") > 0;
-  for (json& inner : value) dropped = drop_key_binds(inner) || dropped;
-  return dropped;
-}
-
 /// Copies what is kept out of a document whose geometry is left behind.
 class GltfKeeper {
  public:
-  GltfKeeper(std::string_view bytes, const OpenBeside& open) : open_(open), document_(bytes, open) {}
+  GltfKeeper(GltfDocument& document, const OpenBeside& open, const std::vector<GltfMeshNode>& read)
+      : open_(open), document_(document) {
+    for (const GltfMeshNode& node : read) read_.insert(node.node);
+  }
 
-  KeptGltf keep() {
+  GltfSource keep() {
     to_ = from_;
-    for (const char* list : {"meshes", "accessors", "bufferViews", "buffers"}) to_.erase(list);
+    for (const char* list : {"accessors", "bufferViews", "buffers"}) to_.erase(list);
     to_["accessors"] = to_["bufferViews"] = json::array();
-    keep_scene();
-    keep_nodes();
-    keep_mesh_names();
+    keep_meshes();
     keep_skins();
     keep_animations();
     keep_images();
     keep_materials();
     drop_extensions(to_, "");
-    kept_.source.document = to_.dump();
+    kept_.document = to_.dump();
     return std::move(kept_);
   }
 
  private:
   void lose(const std::string& what) {
-    auto& lost = kept_.source.lost;
+    auto& lost = kept_.lost;
     if (std::ranges::find(lost, what) == lost.end()) lost.push_back(what);
   }
 
-  /// The one that is read, and of it the nodes that have a mesh.
-  void keep_scene() {
-    const json& scenes = list_of(from_, "scenes");
-    if (scenes.empty()) throw ContentError("it has no scene");
-    const std::size_t shown = from_.contains("scene") ? index_in(scenes, from_["scene"]) : 0;
-    if (scenes.size() > 1)
-      lose("only " + called("scene", scenes, shown) + " of its " + std::to_string(scenes.size()) +
-           " scenes; the others stay in the file that was read");
-    to_["scenes"] = json::array({scenes[shown]});
-    to_["scene"] = 0;
-    std::set<std::size_t> seen;
-    for (const json& root : list_of(scenes[shown], "nodes")) walk(root, seen);
-  }
-
-  void walk(const json& number, std::set<std::size_t>& seen) {
+  /// Those that other nodes show, or none, as they are; of the others their names and keys.
+  void keep_meshes() {
+    std::set<std::size_t> made_anew;
     const json& nodes = list_of(from_, "nodes");
-    std::vector<std::size_t> open = {index_in(nodes, number)};
-    while (!open.empty()) {
-      const std::size_t n = open.back();
-      open.pop_back();
-      if (!seen.insert(n).second) throw ContentError("its nodes are no tree");
-      if (nodes[n].contains("mesh")) add_mesh_node(n);
-      const json& children = list_of(nodes[n], "children");
-      for (std::size_t c = children.size(); c-- > 0;) open.push_back(index_in(nodes, children[c]));
+    const auto mesh_of = [&](std::size_t n) { return index_in(list_of(from_, "meshes"), nodes[n]["mesh"]); };
+    for (const std::size_t n : read_) made_anew.insert(mesh_of(n));
+    for (std::size_t n = 0; n < nodes.size(); ++n)
+      if (nodes[n].contains("mesh") && !read_.contains(n)) made_anew.erase(mesh_of(n));
+    for (std::size_t m = 0; m < list_of(from_, "meshes").size(); ++m) {
+      json& mesh = to_["meshes"][m];
+      if (made_anew.contains(m))
+        leave_keys(mesh, called("mesh", from_["meshes"], m));
+      else
+        for (std::size_t p = 0; p < list_of(mesh, "primitives").size(); ++p)
+          keep_primitive(mesh["primitives"][p]);
     }
   }
 
-  void add_mesh_node(std::size_t n) {
-    const json& node = list_of(from_, "nodes")[n];
-    const json& mesh = list_of(from_, "meshes")[index_in(list_of(from_, "meshes"), node["mesh"])];
-    GltfMeshNode& found = kept_.mesh_nodes.emplace_back();
-    found.node = static_cast<int>(n);
-    found.name = node.value("name", "");
-    for (const json& primitive : list_of(mesh, "primitives"))
-      found.materials.push_back(
-          primitive.contains("material")
-              ? static_cast<int>(index_in(list_of(from_, "materials"), primitive["material"]))
-              : -1);
+  void leave_keys(json& mesh, const std::string& name) {
+    json keys = json::array();
+    for (const json& primitive : list_of(mesh, "primitives")) {
+      tell_lost(primitive, name);
+      if (list_of(primitive, "targets").size() > keys.size()) keys = primitive["targets"];
+    }
+    mesh["primitives"] = {{{"targets", keys}}};
   }
 
-  void keep_nodes() {
-    if (!to_.contains("nodes")) return;
-    std::set<std::size_t> read;
-    for (const GltfMeshNode& node : kept_.mesh_nodes) read.insert(static_cast<std::size_t>(node.node));
-    for (std::size_t n = 0; n < to_["nodes"].size(); ++n) {
-      json& node = to_["nodes"][n];
-      node.erase("weights");
-      if (node.contains("skin")) index_in(list_of(from_, "skins"), node["skin"]);
-      if (!node.contains("mesh") || read.contains(n)) continue;
-      lose("the mesh of " + called("node", to_["nodes"], n) + ", which is in no scene that is read");
-      node.erase("mesh"), node.erase("skin");
-    }
-  }
-
-  void keep_mesh_names() {
-    json names = json::array();
-    for (const json& mesh : list_of(from_, "meshes")) {
-      json& name = names.emplace_back(json::object());
-      for (const char* key : {"name", "extras"})
-        if (mesh.contains(key)) name[key] = mesh[key];
-      if (name.contains("extras") && name["extras"].is_object()) name["extras"].erase("targetNames");
-      for (const json& primitive : list_of(mesh, "primitives"))
-        tell_lost(primitive, called("mesh", from_["meshes"], names.size() - 1));
-    }
-    if (!names.empty()) to_["meshes"] = std::move(names);
+  void keep_primitive(json& primitive) {
+    if (primitive.contains("extensions")) primitive["extensions"].erase("KHR_draco_mesh_compression");
+    if (primitive.contains("indices")) primitive["indices"] = keep_vertices(primitive["indices"]);
+    for (json& number :
+         primitive.value("attributes", json::object()).empty() ? none_ : primitive["attributes"])
+      number = keep_vertices(number);
+    for (std::size_t t = 0; t < list_of(primitive, "targets").size(); ++t)
+      for (json& number : primitive["targets"][t]) number = keep_vertices(number);
   }
 
   /// What our mesh has no place for.
   void tell_lost(const json& primitive, const std::string& mesh) {
     const json attributes = primitive.value("attributes", json::object());
-    if (primitive.contains("targets"))
-      lose("the shape keys (morph targets) of " + mesh +
-           "; the add-on for Blender puts results beside them, as keys of their own (docs/blender.md)");
     if (attributes.contains("TEXCOORD_1")) lose("the second UV map of " + mesh + second_map);
     if (attributes.contains("COLOR_1")) lose("the second colours of " + mesh + second_map);
     for (const auto& [name, accessor] : attributes.items())
@@ -172,41 +133,14 @@ class GltfKeeper {
     }
   }
 
-  /// All but the weights of morph targets.
   void keep_animations() {
-    json animations = json::array();
-    for (json animation : list_of(from_, "animations")) {
-      json channels = json::array();
-      for (const json& channel : list_of(animation, "channels")) {
-        const bool of_weights = channel.value("target", json::object()).value("path", "") == "weights";
-        if (!of_weights) channels.push_back(channel);
-      }
-      if (channels.size() < list_of(animation, "channels").size())
-        lose("the motion of shape keys in animation '" + animation.value("name", "") +
-             "'; the add-on for Blender leaves it in place (docs/blender.md)");
-      if (channels.empty()) continue;
-      animation["channels"] = channels;
-      keep_samplers(animation);
-      animations.push_back(std::move(animation));
-    }
-    animations.empty() ? void(to_.erase("animations")) : void(to_["animations"] = std::move(animations));
-  }
-
-  /// Those that a channel uses, in their order.
-  void keep_samplers(json& animation) {
-    const json samplers = list_of(animation, "samplers");
-    std::map<std::size_t, std::size_t> numbers;
-    json kept = json::array();
-    for (const json& channel : animation["channels"])
-      numbers.emplace(index_in(samplers, channel.at("sampler")), 0);
-    for (auto& [from, to] : numbers) {
-      to = kept.size();
-      json& sampler = kept.emplace_back(samplers[from]);
-      for (const char* end : {"input", "output"}) sampler[end] = keep_accessor(sampler.at(end));
-    }
-    for (json& channel : animation["channels"])
-      channel["sampler"] = numbers.at(channel["sampler"].get<std::size_t>());
-    animation["samplers"] = std::move(kept);
+    if (!to_.contains("animations")) return;
+    for (json& animation : to_["animations"])
+      for (std::size_t i = 0; i < list_of(animation, "samplers").size(); ++i)
+        for (const char* end : {"input", "output"}) {
+          json& sampler = animation["samplers"][i];
+          sampler[end] = keep_accessor(sampler.at(end));
+        }
   }
 
   void keep_images() {
@@ -233,10 +167,8 @@ class GltfKeeper {
   /// Textures that lie on other UV maps than the first go: there is none in what is written.
   void keep_materials() {
     if (!to_.contains("materials")) return;
-    for (std::size_t m = 0; m < to_["materials"].size(); ++m) {
-      kept_.material_names.push_back(to_["materials"][m].value("name", ""));
+    for (std::size_t m = 0; m < to_["materials"].size(); ++m)
       drop_second_maps(to_["materials"][m], called("material", to_["materials"], m));
-    }
   }
 
   static std::size_t uv_map_of(const json& texture) {
@@ -272,8 +204,6 @@ class GltfKeeper {
              "; add it where the file is used");
         value["extensions"].erase(name);
       }
-      if (drop_key_binds(value["extensions"]))
-        lose("the shape keys of expressions (VRM); add them where the file is used");
       if (value["extensions"].empty()) value.erase("extensions");
     }
     for (auto& [key, inner] : value.items())
@@ -297,6 +227,15 @@ class GltfKeeper {
     return accessors_[from] = to_["accessors"].size() - 1;
   }
 
+  /// The number of the copy of an accessor of vertices: its views as they are, as strides count there.
+  std::size_t keep_vertices(const json& number) {
+    const std::size_t from = index_in(list_of(from_, "accessors"), number);
+    if (const auto known = vertices_.find(from); known != vertices_.end()) return known->second;
+    to_["accessors"].push_back(list_of(from_, "accessors")[from]);
+    keep_views_in(to_["accessors"].back());
+    return vertices_[from] = to_["accessors"].size() - 1;
+  }
+
   void keep_views_in(json& value) {
     if (value.contains("bufferView")) value["bufferView"] = keep_view(value["bufferView"]);
     for (const char* part : {"sparse", "indices", "values"})
@@ -307,14 +246,14 @@ class GltfKeeper {
   std::size_t keep_view(const json& number) {
     const std::size_t from = index_in(list_of(from_, "bufferViews"), number);
     if (const auto known = views_.find(from); known != views_.end()) return known->second;
-    const json& view = list_of(from_, "bufferViews")[from];
-    if (view.contains("extensions")) throw ContentError("a view that is kept is compressed");
+    json view = list_of(from_, "bufferViews")[from];
+    view.erase("extensions");  // packed once more, for programs that unpack
     return views_[from] = add_view(document_.bytes_of(view), view);
   }
 
   std::size_t add_view(std::string_view bytes, const json& like) {
     json view = like.is_object() ? like : json::object();
-    std::string& binary = kept_.source.binary;
+    std::string& binary = kept_.binary;
     view["buffer"] = 0;
     view["byteOffset"] = binary.size();
     view["byteLength"] = bytes.size();
@@ -325,28 +264,22 @@ class GltfKeeper {
   }
 
   const OpenBeside& open_;
-  GltfDocument document_;
+  GltfDocument& document_;
   const json& from_ = document_.root;
-  json to_;
-  std::map<std::size_t, std::size_t> accessors_, views_;  ///< the numbers of copies
-  KeptGltf kept_;
+  json to_, none_ = json::object();
+  std::set<std::size_t> read_;                                       ///< nodes
+  std::map<std::size_t, std::size_t> accessors_, vertices_, views_;  ///< the numbers of copies
+  GltfSource kept_;
 };
 
 }  // namespace
 
-KeptGltf keep_gltf(std::string_view bytes, const OpenBeside& open) {
+GltfSource keep_gltf(GltfDocument& document, const OpenBeside& open, const std::vector<GltfMeshNode>& read) {
   try {
-    return GltfKeeper(bytes, open).keep();
+    return GltfKeeper(document, open, read).keep();
   } catch (const json::exception& error) {
     throw ContentError(error.what());
   }
-}
-
-std::string weight_attribute(const std::string& joint) {
-  std::string name = "weight_" + joint;
-  for (char& c : name)
-    if (static_cast<unsigned char>(c) <= ' ') c = '_';
-  return name;
 }
 
 }  // namespace furrow::io

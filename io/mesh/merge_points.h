@@ -12,15 +12,15 @@ namespace furrow::io {
 /// Numbers positions in the order of their first occurrence; exactly equal ones (0 = -0) get the same number.
 class PointNumbers {
  public:
-  /// The number of p, and whether it is new.
-  std::pair<std::size_t, bool> number(const geometry::Point& p) {
+  /// The number of p, and whether it is new. Equal positions of different `kind` have different numbers.
+  std::pair<std::size_t, bool> number(const geometry::Point& p, std::uint64_t kind = 0) {
     const auto [found, is_new] =
-        known_.try_emplace(Key{bits(p.x()), bits(p.y()), bits(p.z())}, known_.size());
+        known_.try_emplace(Key{bits(p.x()), bits(p.y()), bits(p.z()), kind}, known_.size());
     return {found->second, is_new};
   }
 
  private:
-  using Key = std::array<std::uint64_t, 3>;
+  using Key = std::array<std::uint64_t, 4>;
   struct Hash {
     std::size_t operator()(const Key& k) const {
       std::uint64_t h = 0;

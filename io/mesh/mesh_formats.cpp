@@ -4,7 +4,8 @@
 #include <algorithm>
 
 #include "geometry/mesh/errors.h"
-#include "io/base/lower_case.h"
+#include "io/base/figure_path.h"
+#include "io/mesh/gltf_source.h"
 #include "io/mesh/mesh_readers.h"
 #include "io/mesh/mesh_writers.h"
 
@@ -43,6 +44,18 @@ Lost glb(std::ostream& out, const MeshFile& file, const WriteOptions& options, c
   return write_glb(out, file, options);
 }
 
+/// A GLB by another name, which promises an avatar.
+Lost vrm(std::ostream& out, const MeshFile& file, const WriteOptions& options, const std::filesystem::path&) {
+  const std::string document = file.gltf ? file.gltf->document : "";
+  if (document.find("\"VRM\":{") == document.npos && document.find("\"VRMC_vrm\":{") == document.npos)
+    throw std::invalid_argument(
+        "mesh: a vrm is an avatar, which none was read for; let the name end in .glb");
+  return write_glb(out, file, options);
+}
+
+constexpr const char* other =
+    "what an FBX or a COLLADA file has is written as a GLB; let its name end in .glb";
+
 constexpr MeshEnding endings[] = {
     {".obj", MeshFormat::obj, true, read_obj, obj, "", is_own_obj},
     {".ply", MeshFormat::ply, true, read_ply, whole<write_ply>, "", is_own_ply},
@@ -51,8 +64,9 @@ constexpr MeshEnding endings[] = {
     {".gltf", MeshFormat::gltf, false, nullptr, nullptr,
      "a glTF is written as one file; let its name end in .glb"},
     {".glb", MeshFormat::gltf, false, nullptr, glb, "", is_own_glb},
-    {".vrm", MeshFormat::gltf, false, nullptr, nullptr,
-     "an avatar is written as a GLB; let its name end in .glb"}};
+    {".vrm", MeshFormat::gltf, false, nullptr, vrm, "", is_own_glb},
+    {".fbx", MeshFormat::gltf, false, nullptr, nullptr, other},
+    {".dae", MeshFormat::gltf, false, nullptr, nullptr, other}};
 
 template <class Wanted>
 std::string listed(const Wanted& wanted, const std::string& last) {
@@ -92,9 +106,7 @@ MeshFormat mesh_format(const std::filesystem::path& path) {
   throw geometry::ContentError(
       path.string() + ": unknown format '" + ending + "'; " + mesh_formats(true, " and ") + " are read, " +
       mesh_formats(false, " and ") + " written" +
-      (ending == ".fbx" || ending == ".blend" || ending == ".dae" || ending == ".usd" || ending == ".abc"
-           ? "; export it as GLB or OBJ"
-           : ""));
+      (ending == ".blend" || ending == ".usd" || ending == ".abc" ? "; export it as GLB or OBJ" : ""));
 }
 
 }  // namespace furrow::io

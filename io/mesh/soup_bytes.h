@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "io/mesh/gltf_source.h"
+#include "io/mesh/mesh_file.h"
 #include "io/mesh/polygon_soup.h"
 
 namespace furrow::io {
@@ -16,6 +17,12 @@ struct SoupFile {
   std::size_t merged_vertices = 0;
   GltfSource gltf;  ///< of as many places as groups, and materials as names
 };
+
+/// Reads a glTF or GLB of these bytes, also one packed by Draco or meshoptimizer. Hostile bytes may take time
+/// and memory: to be called in a child. `figure` as in gltf_mesh_nodes(). Throws
+/// geometry::ContentError for what cannot be used.
+SoupFile read_gltf_soup(std::string_view bytes, const std::string& figure, const OpenBeside& open,
+                        const ReadOptions& options);
 
 /// As bytes for the same machine (not for files), and back.
 std::string to_bytes(const SoupFile& file);

@@ -37,8 +37,7 @@ void append_values(const draco::Mesh& mesh, const draco::PointAttribute& attribu
 
 void append_values(const draco::Mesh& mesh, const draco::PointAttribute& attribute, const json& accessor,
                    std::string& out) {
-  const std::size_t width = gltf_element_size(json{{"componentType", 5121}, {"type", accessor.at("type")}});
-  if (width == 0) throw ContentError("an accessor is of no known type");
+  const std::size_t width = gltf_width(accessor);
   switch (accessor.at("componentType").get<int>()) {
     case 5120:
       return append_values<std::int8_t>(mesh, attribute, width, out);

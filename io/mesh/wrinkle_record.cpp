@@ -6,7 +6,7 @@
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/stroke/stroke.h"
-#include "io/base/lower_case.h"
+#include "io/base/figure_path.h"
 #include "io/base/nesting.h"
 #include "io/mesh/mesh_file.h"
 

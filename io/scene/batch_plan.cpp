@@ -11,6 +11,7 @@
 #include "io/base/bytes_file.h"
 #include "io/base/control_character.h"
 #include "io/base/field_words.h"
+#include "io/base/figure_path.h"
 #include "io/base/nearest_word.h"
 #include "io/scene/csv.h"
 #include "io/scene/scene.h"
@@ -153,7 +154,7 @@ class Files {
       throw geometry::ContentError(where + ": " + column + ": '" + text +
                                    "' is an option and no value; give it a column of its own");
     std::error_code ignored;
-    const bool is_file = std::filesystem::is_regular_file(path, ignored);
+    const bool is_file = std::filesystem::is_regular_file(file_of_figure(path), ignored);
     const bool must = has(file_columns, column);
     if (must && !is_file)
       throw geometry::ContentError(where + ": " + column + ": there is no file " + path.string());
@@ -165,7 +166,7 @@ class Files {
     const auto known = hashes_.find(text);
     if (known != hashes_.end()) return known->second;
     std::error_code ignored;
-    const bool is_file = text.starts_with('/') && std::filesystem::is_regular_file(text, ignored);
+    const bool is_file = text.starts_with('/') && std::filesystem::is_regular_file(file_of_figure(text), ignored);
     return hashes_[text] = is_file ? "file " + content_hash(std::filesystem::path(text)) : text;
   }
 

@@ -13,7 +13,7 @@
 #include "io/base/atomic_file.h"
 #include "io/base/bytes_file.h"
 #include "io/base/camera_file.h"
-#include "io/base/lower_case.h"
+#include "io/base/figure_path.h"
 #include "io/base/text_scanner.h"
 #include "io/mesh/file_frame.h"
 #include "io/mesh/mesh_readers.h"

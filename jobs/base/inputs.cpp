@@ -12,13 +12,14 @@
 #include "geometry/mesh/preconditions.h"
 #include "geometry/mesh/struts.h"
 #include "geometry/mesh/vertex_attributes.h"
-#include "io/base/lower_case.h"
+#include "io/base/figure_path.h"
 #include "io/mesh/mesh_file.h"
 #include "io/mesh/weld.h"
 #include "io/scene/scene_file.h"
 #include "io/scene/scene_rules.h"
 #include "io/scene/state_file.h"
 #include "jobs/base/gate.h"
+#include "jobs/base/output_checks.h"
 #include "jobs/base/read_inputs.h"
 #include "physics/base/progress.h"
 
@@ -228,12 +229,27 @@ void take_noted_frame(io::Scene& scene, io::TomlDocument& document, const Memory
   take(scene.up, "up", noted.noted_up, "y");
 }
 
+namespace {
+
+/// Of one file garment and body are two figures.
+void check_figures(const io::Scene& scene) {
+  if (!scene.body || scene.garment.empty() || scene.garment == "-" || scene.body->mesh.empty()) return;
+  const io::FigurePath garment = io::figure_path(scene.garment), body = io::figure_path(scene.body->mesh);
+  const bool apart = !garment.figure.empty() && !body.figure.empty() && garment.figure != body.figure;
+  if (apart || !same_file(garment.file.string(), body.file.string())) return;
+  throw std::invalid_argument("garment: is the body's file " + garment.file.string() +
+                              ", too; name one figure of a GLB for each, as garment=avatar.glb#Skirt and "
+                              "body=avatar.glb#Body, or give two files");
+}
+
+}  // namespace
+
 void check_inputs(const io::Scene& scene, const io::TomlDocument& document, int lines_drawn,
                   const MemoryFiles& memory) {
   const auto check = [&](const std::string& key, const std::filesystem::path& path) {
     const std::string place = document.place(key);
     if (document.name.empty() || place.rfind(document.name, 0) != 0 || path.empty() || path == "-" ||
-        memory.holds(path) || std::filesystem::exists(path))
+        memory.holds(path) || std::filesystem::exists(io::file_of_figure(path)))
       return;
     throw geometry::ContentError(place + ": " + key + ": there is no file " + path.string() +
                                  "; paths are relative to the file that names them");
@@ -241,6 +257,7 @@ void check_inputs(const io::Scene& scene, const io::TomlDocument& document, int 
   blaming_flags([&] { io::check_keep_stands_still(scene, document, lines_drawn); });
   if (lines_drawn < 0) check("garment.mesh", scene.garment);
   if (scene.body) check("body.mesh", scene.body->mesh);
+  check_figures(scene);
   for (std::size_t i = static_cast<std::size_t>(std::max(0, lines_drawn)); i < scene.lines.size(); ++i)
     check("lines." + std::to_string(i) + ".strokes", scene.lines[i].strokes);
 }

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "io/base/lower_case.h"
+#include "io/base/figure_path.h"
 #include "io/mesh/mesh_formats.h"
 #include "jobs/base/own_output.h"
 
@@ -11,7 +11,8 @@ namespace furrow::jobs {
 
 namespace fs = std::filesystem;
 
-bool same_file(const std::string& a, const std::string& b) {
+bool same_file(const std::string& one, const std::string& other) {
+  const fs::path a = io::file_of_figure(one), b = io::file_of_figure(other);
   std::error_code none;
   if (a == b || fs::equivalent(a, b, none)) return true;
   const fs::path x = fs::weakly_canonical(a, none), y = fs::weakly_canonical(b, none);

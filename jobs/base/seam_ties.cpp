@@ -9,7 +9,7 @@
 #include "bridge/arrays/gather.h"
 #include "geometry/mesh/struts.h"
 #include "geometry/rest/tie_length.h"
-#include "io/base/lower_case.h"
+#include "io/base/figure_path.h"
 #include "io/mesh/merge_points.h"
 
 namespace furrow::jobs {

@@ -9,7 +9,7 @@
 
 #include "furrow/version.h"
 #include "io/base/bytes_file.h"
-#include "io/base/lower_case.h"
+#include "io/base/figure_path.h"
 #include "io/base/share_file.h"
 #include "jobs/base/kept_value.h"
 #include "jobs/base/read_inputs.h"
@@ -189,7 +189,7 @@ physics::TriangleMesh kept_body(const std::filesystem::path& folder, const MeshI
                                 const Context& context, BodyOutline* outline) {
   const auto file = file_of(input, context);
   std::error_code ignored;
-  if (folder.empty() || !file || !std::filesystem::is_regular_file(*file, ignored))
+  if (folder.empty() || !file || !std::filesystem::is_regular_file(io::file_of_figure(*file), ignored))
     return read_body(input, context, outline);
   const Place place = place_of(folder, "body", reading_of(*file, context.frame));
   KnownBody known;

@@ -7,7 +7,7 @@
 #include "bridge/arrays/store_rest_state.h"
 #include "bridge/draping/standing_body.h"
 #include "geometry/fold/gather_lines.h"
-#include "io/base/lower_case.h"
+#include "io/base/figure_path.h"
 #include "io/mesh/ply_motion.h"
 #include "io/scene/relocated.h"
 #include "jobs/base/budget.h"

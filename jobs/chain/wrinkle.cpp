@@ -8,7 +8,7 @@
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/refine/subdivide.h"
-#include "io/base/lower_case.h"
+#include "io/base/figure_path.h"
 #include "io/mesh/mesh_file.h"
 #include "io/scene/relocated.h"
 #include "io/scene/scene_file.h"

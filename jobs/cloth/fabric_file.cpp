@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/mesh/errors.h"
-#include "io/base/lower_case.h"
+#include "io/base/figure_path.h"
 #include "io/scene/settings_table.h"
 
 namespace furrow::jobs {

@@ -9,7 +9,7 @@
 #include "bridge/arrays/store_rest_state.h"
 #include "bridge/keeping/keep.h"
 #include "geometry/fold/gather_lines.h"
-#include "io/base/lower_case.h"
+#include "io/base/figure_path.h"
 #include "jobs/cloth/prepare_garment.h"
 #include "jobs/cloth/scene_cloth.h"
 #include "physics/cloth/pins.h"

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/mesh/errors.h"
-#include "io/base/lower_case.h"
+#include "io/base/figure_path.h"
 #include "io/mesh/mesh_file.h"
 #include "io/stroke/resolve_strokes.h"
 #include "io/stroke/stroke_file.h"

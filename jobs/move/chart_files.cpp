@@ -11,7 +11,7 @@
 #include <sstream>
 
 #include "io/base/atomic_file.h"
-#include "io/base/lower_case.h"
+#include "io/base/figure_path.h"
 #include "io/base/own_mark.h"
 #include "io/picture/png_file.h"
 #include "jobs/base/output_checks.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "io/animation/animation_file.h"
-#include "io/base/lower_case.h"
+#include "io/base/figure_path.h"
 #include "jobs/base/output_checks.h"
 #include "jobs/base/read_inputs.h"
 #include "jobs/cloth/fabric_file.h"

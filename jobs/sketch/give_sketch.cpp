@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "geometry/mesh/property_names.h"
-#include "io/base/lower_case.h"
+#include "io/base/figure_path.h"
 #include "io/base/outputs_below.h"
 #include "jobs/mesh/bake.h"
 #include "jobs/mesh/transfer.h"

@@ -14,8 +14,8 @@
 #include "geometry/mesh/mesh.h"
 #include "io/animation/animation_file.h"
 #include "io/base/camera_file.h"
-#include "io/mesh/gltf_source.h"
 #include "io/mesh/mesh_formats.h"
+#include "io/mesh/soup_bytes.h"
 #include "io/scene/scene_file.h"
 #include "io/scene/state_file.h"
 #include "io/stroke/stroke_file.h"
@@ -69,13 +69,9 @@ inline void read_frames(const std::string& bytes, bool mdd) {
   for (std::size_t i = 0; i < frames->frames(); ++i) require(frames->positions(i).size() == 4);
 }
 
-/// What comes before assimp reads a glTF, and what is kept of it.
-inline void unpack(const std::string& bytes) {
-  const io::OpenBeside open = [](const std::string&) { return std::nullopt; };
-  const std::string plain = io::unpack_gltf(bytes, open).value_or(bytes);
-  std::vector<std::string> warnings;
-  io::plain_gltf(plain, open, warnings);
-  io::keep_gltf(plain, open);
+/// Read in this process, not in a child.
+inline void read_gltf(const std::string& bytes) {
+  io::read_gltf_soup(bytes, "", [](const std::string&) { return std::nullopt; }, {});
 }
 
 inline void read(std::string_view format, const std::string& bytes) {
@@ -86,7 +82,7 @@ inline void read(std::string_view format, const std::string& bytes) {
   if (format == "strokes") io::drawn_strokes_from(bytes, "fuzz");
   if (format == "scene") io::read_scene(io::parse_toml(bytes, "fuzz"), ".");
   if (format == "state") io::parse_state(bytes, "fuzz");
-  if (format == "packed") unpack(bytes);
+  if (format == "packed") read_gltf(bytes);
 }
 
 /// Reads, or refuses as content or as a wrong option: true and false. Anything else is a finding, and thrown

@@ -112,7 +112,8 @@ inline void check_glb(const Glb& glb) {
   const json& s = glb.scene;
   CHECK(s["asset"]["version"] == "2.0");
   for (std::size_t v = 0; v < s["bufferViews"].size(); ++v) glb.bytes_of_view(v);
-  for (const json& a : s["accessors"]) CHECK(a["bufferView"].get<std::size_t>() < s["bufferViews"].size());
+  for (const json& a : s["accessors"])
+    if (a.contains("bufferView")) CHECK(a["bufferView"].get<std::size_t>() < s["bufferViews"].size());
   std::vector<int> parents(s["nodes"].size(), 0);
   for (const json& node : s["nodes"]) {
     for (const json& child : node.value("children", json::array())) ++parents.at(child.get<std::size_t>());
@@ -121,7 +122,7 @@ inline void check_glb(const Glb& glb) {
     const bool skinned = node.contains("skin");
     const std::size_t joints = skinned ? s["skins"].at(node["skin"].get<std::size_t>())["joints"].size() : 0;
     for (const json& p : s["meshes"].at(node["mesh"].get<std::size_t>())["primitives"]) {
-      check_primitive(glb, p, joints);
+      if (p["attributes"].contains("NORMAL")) check_primitive(glb, p, joints);  // else it was kept as it was
       if (p.contains("material")) CHECK(p["material"].get<std::size_t>() < s["materials"].size());
     }
   }

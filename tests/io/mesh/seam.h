@@ -72,7 +72,7 @@ struct SkinnedSeam : Seam {
       for (const std::uint8_t joint : {0, 1, 0, 0}) put_bytes(buffer, joint);
     for (int v = 0; v < 6; ++v)
       for (const float w : {v < 3 ? 0.25F : 1.F, v < 3 ? 0.75F : 0.F, 0.F, 0.F}) put_bytes(buffer, w);
-    for (const auto& to : inverse_bind)  // assimp wants them; column by column
+    for (const auto& to : inverse_bind)  // column by column
       for (int i = 0; i < 16; ++i) put_bytes(buffer, i >= 12 && i < 15 ? to[i - 12] : i % 5 == 0 ? 1.F : 0.F);
     scene["buffers"][0]["byteLength"] = buffer.size();
     scene["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", at}, {"byteLength", 24}});
@@ -100,5 +100,25 @@ struct SkinnedSeam : Seam {
     return io::read_mesh(folder / "a.glb");
   }
 };
+
+/// With a shape key that moves vertex 5 alone, by (0, 0.5, 0), as sparse elements of an accessor without
+/// view.
+template <class Made>
+Made with_key(Made seam) {
+  std::string index, move;
+  put_bytes(index, std::uint16_t{5});
+  for (const float x : {0.F, 0.5F, 0.F}) put_bytes(move, x);
+  const std::size_t at = add_view(seam, index), values = add_view(seam, move);
+  seam.scene["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", seam.scene["accessors"].size()}}};
+  seam.scene["meshes"][0]["extras"] = {{"targetNames", {"Long"}}};
+  seam.scene["accessors"].push_back({{"componentType", 5126},
+                                     {"count", 6},
+                                     {"type", "VEC3"},
+                                     {"sparse",
+                                      {{"count", 1},
+                                       {"indices", {{"bufferView", at}, {"componentType", 5123}}},
+                                       {"values", {{"bufferView", values}}}}}});
+  return seam;
+}
 
 }  // namespace furrow::tests

@@ -281,30 +281,6 @@ TEST_CASE("glTF: an extension that is needed and not read is refused by its name
     CHECK(error_with(name) == "(none)");
 }
 
-namespace {
-
-/// With a shape key that moves vertex 5 alone, by (0, 0.5, 0), as sparse elements of an accessor without
-/// view.
-template <class Made>
-Made with_key(Made seam) {
-  std::string index, move;
-  put_bytes(index, std::uint16_t{5});
-  for (const float x : {0.F, 0.5F, 0.F}) put_bytes(move, x);
-  const std::size_t at = add_view(seam, index), values = add_view(seam, move);
-  seam.scene["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", seam.scene["accessors"].size()}}};
-  seam.scene["meshes"][0]["extras"] = {{"targetNames", {"Long"}}};
-  seam.scene["accessors"].push_back({{"componentType", 5126},
-                                     {"count", 6},
-                                     {"type", "VEC3"},
-                                     {"sparse",
-                                      {{"count", 1},
-                                       {"indices", {{"bufferView", at}, {"componentType", 5123}}},
-                                       {"values", {{"bufferView", values}}}}}});
-  return seam;
-}
-
-}  // namespace
-
 TEST_CASE("glTF: the shape that its keys show is read, and told") {
   SkinnedSeam seam = with_key(SkinnedSeam());
   const Point before = seam.read().mesh->point(Vertex(3));
@@ -333,14 +309,92 @@ TEST_CASE("glTF: the shape that its keys show is read, and told") {
   CHECK(error_of_glb(seam.glb()).find("too many elements") != std::string::npos);
 }
 
-TEST_CASE("glTF: an avatar of VRM is read as the GLB that it is, and none is written") {
+TEST_CASE("glTF: an avatar of VRM is read as the GLB that it is, and goes back as one; nothing else does") {
   TemporaryFolder folder;
-  const SkinnedSeam seam;
-  spit(folder / "a.vrm", seam.glb());
-  CHECK(differences(io::read_mesh(folder / "a.vrm"), seam.read()) == std::array<double, 3>{});
+  SkinnedSeam seam;
   CHECK_THROWS_WITH(io::write_mesh(folder / "b.vrm", seam.read()),
-                    Catch::Contains("let its name end in .glb"));
+                    Catch::Contains("none was read for; let the name end in .glb"));
   CHECK(!std::filesystem::exists(folder / "b.vrm"));
+  for (const char* name : {"VRM", "VRMC_vrm"}) {
+    seam.scene["extensions"] = {{name, {{"humanoid", json::object()}, {"meshAnnotations", {{{"mesh", 0}}}}}}};
+    spit(folder / "a.vrm", seam.glb());
+    const io::MeshFile read = io::read_mesh(folder / "a.vrm");
+    CHECK(differences(read, seam.read()) == std::array<double, 3>{});
+    CHECK(io::write_mesh(folder / "b.vrm", read).empty());
+    const std::string written = slurp(folder / "b.vrm");
+    CHECK(written.find(seam.scene["extensions"].dump()) != written.npos);
+    CHECK(differences(io::read_mesh(folder / "b.vrm"), read) == std::array<double, 3>{});
+  }
+}
+
+TEST_CASE("glTF: strips and fans are triangles, and what has no indices takes its vertices in their order") {
+  const auto turns_up = [](const io::MeshFile& file) {
+    for (const Face f : file.mesh->faces()) {
+      std::vector<Point> p;
+      for (const Vertex v : file.mesh->vertices_around_face(file.mesh->halfedge(f)))
+        p.push_back(file.mesh->point(v));
+      if (CGAL::cross_product(p[1] - p[0], p[2] - p[0]).z() <= 0) return false;
+    }
+    return true;
+  };
+  for (const int mode : {5, 6}) {
+    Seam seam;  // (0, 0), (1, 0), (1, 1), (0, 0), (1, 1), (0, 1)
+    const std::string order =
+        mode == 5 ? std::string("\0\0\1\0\5\0\2\0", 8) : std::string("\0\0\1\0\2\0\5\0", 8);
+    seam.buffer.replace(120, 8, order);
+    seam.scene["accessors"][2]["count"] = 4;
+    seam.scene["meshes"][0]["primitives"][0]["mode"] = mode;
+    TemporaryFolder folder;
+    spit(folder / "a.glb", seam.glb());
+    const io::MeshFile file = io::read_mesh(folder / "a.glb");
+    CHECK(file.mesh->number_of_faces() == 2);
+    CHECK(turns_up(file));
+  }
+  Seam seam;
+  TemporaryFolder folder;
+  seam.scene["meshes"][0]["primitives"][0].erase("indices");
+  spit(folder / "a.glb", seam.glb());
+  CHECK(io::read_mesh(folder / "a.glb").mesh->number_of_faces() == 2);
+}
+
+TEST_CASE("glTF: rigs whose joints have the same names keep their weights apart, each in its own place") {
+  SkinnedSeam seam;
+  json other = seam.scene["nodes"][0];
+  other["skin"] = 1;
+  seam.scene["nodes"].push_back(other);  // 3
+  seam.scene["nodes"].push_back({{"name", "upper arm"}, {"children", {5}}, {"translation", {5, 0, 0}}});
+  seam.scene["nodes"].push_back({{"name", "hand"}});
+  seam.scene["skins"].push_back(seam.scene["skins"][0]);
+  seam.scene["skins"][1]["joints"] = {4, 5};
+  for (const int root : {3, 4}) seam.scene["scenes"][0]["nodes"].push_back(root);
+  const io::MeshFile file = seam.read();
+  CHECK(file.group_names == std::vector<std::string>{"sleeve", "sleeve (2)"});
+  std::vector<std::string> names;
+  for (const VertexAttribute& a : vertex_attributes(file.mesh)) names.push_back(a.name);
+  CHECK(names == std::vector<std::string>{"weight_upper_arm", "weight_hand", "weight_upper_arm_(2)",
+                                          "weight_hand_(2)"});
+  REQUIRE(file.mesh->number_of_vertices() == 8);
+  CHECK(file.mesh->point(Vertex(7)) - file.mesh->point(Vertex(3)) == Vector(5, 0, 0));
+}
+
+TEST_CASE("glTF: a figure is chosen by the name of its node, of a node above it, or of its mesh") {
+  Seam seam;
+  seam.scene["meshes"].push_back(seam.scene["meshes"][0]);
+  seam.scene["meshes"][1]["name"] = "Shell";
+  seam.scene["nodes"].push_back({{"mesh", 1}, {"name", "cuff.001"}, {"translation", {9, 0, 0}}});
+  seam.scene["nodes"].push_back({{"name", "Clothes"}, {"children", {1}}});
+  seam.scene["scenes"][0]["nodes"].push_back(2);
+  TemporaryFolder folder;
+  spit(folder / "a.glb", seam.glb());
+  const auto read = [&](const std::string& figure) { return io::read_mesh(folder / ("a.glb" + figure)); };
+  CHECK(read("").mesh->number_of_faces() == 4);
+  for (const char* figure : {"#cuff.001", "#Clothes", "#Shell"}) {
+    CHECK(read(figure).group_names == std::vector<std::string>{"cuff.001"});
+    CHECK(read(figure).mesh->point(Vertex(0)) == Point(9, 0, 0));
+  }
+  CHECK_THROWS_WITH(read("#collar"),
+                    Catch::Contains("a.glb#collar: it has no figure 'collar'; it has 'sleeve', "
+                                    "'cuff.001'"));
 }
 
 TEST_CASE("glTF: sparse integers are read, and those that cannot be refused, whatever contradicts itself") {
