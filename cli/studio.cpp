@@ -11,6 +11,7 @@
 #include "cli/scene_flags.h"
 #include "cli/shipped.h"
 #include "cli/subcommands.h"
+#include "io/base/figure_path.h"
 #include "jobs/base/read_inputs.h"
 #ifdef FURROW_STUDIO
 #include <sys/wait.h>
@@ -47,7 +48,7 @@ void show_place(const std::string& place) {
 /// The folder of a new drawing: beside nothing, in the working directory, named after what is drawn on.
 std::filesystem::path project_of(const StudioArguments& a) {
   if (!a.project.empty()) return a.project;
-  return std::filesystem::path(a.in).stem().string() + "-studio";
+  return io::stem_of(a.in) + "-studio";
 }
 
 /// One that says what is drawn on; "": none does.

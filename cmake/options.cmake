@@ -17,7 +17,7 @@ endif()
 if(FURROW_SANITIZE)
   # These four checks make g++ take minutes and gigabytes for one CGAL source; the rest stay on.
   set(furrow_sanitizers -fsanitize=address,undefined -fno-sanitize=null,alignment,object-size,vptr
-      -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+      -fno-sanitize-recover=undefined -fno-omit-frame-pointer $<$<BOOL:${FURROW_FUZZ}>:-fsanitize=fuzzer-no-link>)
   target_compile_options(furrow_options INTERFACE $<BUILD_INTERFACE:${furrow_sanitizers}>)
   target_link_options(furrow_options INTERFACE $<BUILD_INTERFACE:${furrow_sanitizers}>)
   target_compile_definitions(furrow_options INTERFACE $<BUILD_INTERFACE:FURROW_SANITIZED>)

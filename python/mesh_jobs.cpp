@@ -2,12 +2,13 @@
 #include "geometry/figure/repair_body.h"
 #include "jobs/body/body.h"
 #include "jobs/mesh/bake.h"
+#include "jobs/mesh/follow.h"
 #include "jobs/mesh/smooth.h"
 #include "jobs/mesh/subdivide.h"
 #include "jobs/mesh/transfer.h"
 #include "python/mesh_job.h"
 
-/// Jobs that make one mesh of another: transfer, bake, subdivide, smooth, body.
+/// Jobs that make one mesh of another: transfer, follow, bake, subdivide, smooth, body.
 namespace furrow::python {
 namespace {
 
@@ -22,6 +23,19 @@ Outcome transfer(const py::list& inputs, Call& call) {
   Outcome outcome{jobs::to_json(report)};
   note_written(outcome.report, job.output);
   outcome.meshes.push_back({std::move(report.result), name_of(inputs[0])});
+  return outcome;
+}
+
+// ---- follow
+
+Outcome follow(const py::list& inputs, Call& call) {
+  jobs::FollowJob job;
+  take_keywords(call, job);
+  take(Value{"garment", inputs[0]}, job.garment);
+  jobs::FollowReport report = without_lock(job, call, jobs::follow);
+  Outcome outcome{jobs::to_json(report)};
+  note_written(outcome.report, job.output);
+  outcome.meshes.push_back({std::move(report.garment), name_of(inputs[0])});
   return outcome;
 }
 
@@ -94,6 +108,7 @@ Outcome body(const py::list& inputs, Call& call) {
 
 void add_mesh_jobs(std::vector<Runner>& runners) {
   runners.push_back({"transfer", words_of_card<jobs::TransferJob>(), transfer});
+  runners.push_back({"follow", words_of_card<jobs::FollowJob>(), follow});
   runners.push_back({"bake", words_of_card<jobs::BakeJob>(), bake});
   runners.push_back({"subdivide", words_of_card<jobs::SubdivideJob>(), subdivide});
   runners.push_back({"smooth", words_of_card<jobs::SmoothJob>(), smooth});

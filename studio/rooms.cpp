@@ -204,14 +204,19 @@ Json Rooms::open_files(const Json& body) {
   const std::optional<Upload> garment = sent(body, "garment"), worn_by = sent(body, "body"),
                               made_for = sent(body, "made_for");
   Ground ground(places_.drawings, fs::path(garment->name).stem().string());
-  const std::string mesh = ground.take(*garment, "garment"),
-                    figure = worn_by ? ground.take(*worn_by, "body") : "",
-                    other = made_for ? ground.take(*made_for, "made-for") : "";
+  const Json figures = body.value("figures", Json::object());
+  if (!figures.is_object()) throw Refused("figures: no object");
+  const auto named = [&](const std::string& file, const char* role) {
+    return file + (figures.contains(role) ? "#" + text_of(figures, role, 200) : "");
+  };
+  const std::string mesh = named(ground.take(*garment, "garment"), "garment"),
+                    figure = worn_by ? named(ground.take(*worn_by, "body"), "body") : "",
+                    other = made_for ? named(ground.take(*made_for, "made-for"), "made_for") : "";
   const jobs::GuessedFrame guess =
       jobs::guess_frame(ground.folder() / mesh, worn_by ? ground.folder() / figure : fs::path());
   std::string toml = "unit = \"" + (unit.empty() ? guess.unit : unit) + "\"\nup = \"" +
-                     (up.empty() ? guess.up : up) + "\"\n[garment]\nmesh = \"" + mesh + "\"\n";
-  if (worn_by) toml += "[body]\nmesh = \"" + figure + "\"\n";
+                     (up.empty() ? guess.up : up) + "\"\n[garment]\nmesh = " + Json(mesh).dump() + "\n";
+  if (worn_by) toml += "[body]\nmesh = " + Json(figure).dump() + "\n";
   const jobs::SceneInput scene{io::parse_toml(toml, garment->name), ground.folder()};
   enter(scene, ground.folder(), made_for ? ground.folder() / other : fs::path());
   ground.keep();

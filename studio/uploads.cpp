@@ -19,7 +19,7 @@ std::string plain_name(const std::string& name) {
   const std::filesystem::path file = std::filesystem::path(name).filename();
   std::string stem = file.stem().string(), ending = file.extension().string();
   for (char& c : ending) c = char(std::tolower(static_cast<unsigned char>(c)));
-  if (stem.empty() || name.size() > 255 || !io::is_written_mesh(ending)) return "";
+  if (stem.empty() || name.size() > 255 || (!io::is_written_mesh(ending) && ending != ".fbx")) return "";
   for (char& c : stem)
     if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_') c = '-';
   return stem.substr(0, longest_name) + ending;

@@ -176,8 +176,7 @@ void BandMesh::settle(Vertex v, const Point& p, const FacePoint& at, const Star&
   place[v.idx()] = at;
   moved[v.idx()] = true;
   for (std::size_t i = 0; i < lengths.size(); ++i) rest[mesh.edge(star.spokes[i])] = lengths[i];
-  if (const auto texture = on_seam[v.idx()] ? std::nullopt : base.texture(at))
-    editor.set_texture(v, *texture);
+  if (!on_seam[v.idx()]) editor.set_texture(v, base.texture(at));
 }
 
 bool BandMesh::move(const Star& star, const Place2& x, double least, const Point* p) {

@@ -55,10 +55,9 @@ Barycentrics nearest_barycentrics(const std::array<Point, 3>& c, const Point& p)
   return best;
 }
 
-BaseSurface::BaseSurface(const Mesh& mesh) : mesh_(mesh), seam_(mesh.num_edges(), false) {
+BaseSurface::BaseSurface(const Mesh& mesh) : mesh_(mesh), seam_(mesh.num_edges(), false), texture_(mesh_) {
   const MeshEditor editor(mesh_);  // adds the maps that insertion needs
   for (Edge e : mesh_.edges()) seam_[e.idx()] = !mesh_.is_border(e) && editor.is_seam(e);
-  texture_ = find_map(mesh_, attribute::texture);
 }
 
 FacePoint BaseSurface::of_vertex(Vertex v) const {
@@ -80,14 +79,9 @@ FacePoint BaseSurface::project(const FacePoint& from, const Point& p) const {
   return at;
 }
 
-std::optional<TextureCoordinate> BaseSurface::texture(const FacePoint& place) const {
-  if (!texture_) return std::nullopt;
+CornerTexture BaseSurface::texture(const FacePoint& place) const {
   const auto h = halfedges_of(mesh_, place.face);
-  TextureCoordinate sum{0, 0};
-  for (int i = 0; i < 3; ++i)
-    for (int k = 0; k < 2 && place.barycentrics[i] != 0; ++k)
-      sum[k] += place.barycentrics[i] * (*texture_)[h[(i + 2) % 3]][k];
-  return sum;
+  return blend_corners({texture_.at(h[2]), texture_.at(h[0]), texture_.at(h[1])}, place.barycentrics);
 }
 
 }  // namespace furrow::geometry

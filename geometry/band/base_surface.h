@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "geometry/insert/mesh_editor.h"
+#include "geometry/insert/texture_maps.h"
 
 namespace furrow::geometry {
 
@@ -21,15 +22,15 @@ class BaseSurface {
   /// The point of the surface nearest to `p` that a walk from the face of `from` comes to; it stops at the
   /// border and at seams. Weights below 1e-12 become 0. O(faces passed).
   FacePoint project(const FacePoint& from, const Point& p) const;
-  /// Texture coordinate there, in the chart of the place's face; none without texture.
-  std::optional<TextureCoordinate> texture(const FacePoint& place) const;
+  /// Texture coordinates there, in the charts of the place's face.
+  CornerTexture texture(const FacePoint& place) const;
   /// Whether texture, group or material change across this edge.
   bool is_seam(Edge e) const { return seam_[e.idx()]; }
 
  private:
   Mesh mesh_;
   std::vector<bool> seam_;
-  std::optional<HalfedgeMap<TextureCoordinate>> texture_;
+  TextureMaps texture_;
 };
 
 /// Barycentrics of the point of a triangle's plane nearest to `p`.

@@ -18,12 +18,14 @@ bool convex(const MeshEditor& editor, Edge edge, double least_part) {
   return areas[0] > 0 && areas[1] > 0 && areas[0] >= least && areas[1] >= least;  // false for NaN
 }
 
-/// Whether the flip keeps the texture's triangles the right way round; where they are not now, it may.
+/// Whether the flip keeps the triangles of texture maps the right way round; where they are not now, it may.
 bool convex_in_texture(const MeshEditor& editor, Edge edge) {
-  const auto areas = editor.texture_areas(edge);
-  if (!areas || !((*areas)[0] * (*areas)[1] > 0)) return true;  // none, NaN, folded or flat already
-  const double whole = (*areas)[0] + (*areas)[1];
-  return (*areas)[2] / whole >= least_area && (*areas)[3] / whole >= least_area;
+  for (const auto& areas : editor.texture_areas(edge)) {
+    if (!(areas[0] * areas[1] > 0)) continue;  // NaN, folded or flat already
+    const double whole = areas[0] + areas[1];
+    if (!(areas[2] / whole >= least_area && areas[3] / whole >= least_area)) return false;
+  }
+  return true;
 }
 
 }  // namespace

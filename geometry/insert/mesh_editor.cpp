@@ -9,22 +9,8 @@
 namespace furrow::geometry {
 namespace {
 
-TextureCoordinate blend_corners(const std::array<TextureCoordinate, 3>& corners,
-                                const Barycentrics& weights) {
-  TextureCoordinate result{};
-  for (int k = 0; k < 2; ++k) {
-    result[k] = weights[0] * corners[0][k] + weights[1] * corners[1][k] + weights[2] * corners[2][k];
-  }
-  return result;
-}
-
 double cross(const TextureCoordinate& o, const TextureCoordinate& p, const TextureCoordinate& q) {
   return (p[0] - o[0]) * (q[1] - o[1]) - (p[1] - o[1]) * (q[0] - o[0]);
-}
-
-bool same(const TextureCoordinate& a, const TextureCoordinate& b) {
-  const auto equal = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
-  return equal(a[0], b[0]) && equal(a[1], b[1]);
 }
 
 }  // namespace
@@ -35,17 +21,17 @@ MeshEditor::MeshEditor(Mesh& mesh)
       line_(ensure_map(mesh, attribute::line)),
       line_edge_(ensure_map(mesh, attribute::line_edge)),
       generation_(ensure_map(mesh, attribute::generation)),
-      texture_(find_map(mesh, attribute::texture)),
+      texture_(mesh),
       group_(find_map(mesh, attribute::group)),
       material_(find_map(mesh, attribute::material)),
       lining_(find_map(mesh, attribute::lining)),
       attributes_((ensure_rest_positions(mesh), mesh)) {}
 
 /// Texture coordinate of `vertex` in the face of `inside`.
-TextureCoordinate MeshEditor::corner_in(Halfedge inside, Vertex vertex) const {
+CornerTexture MeshEditor::corner_in(Halfedge inside, Vertex vertex) const {
   Halfedge h = inside;
   while (mesh_.target(h) != vertex) h = mesh_.next(h);
-  return (*texture_)[h];
+  return texture_.at(h);
 }
 
 void MeshEditor::make_part(Face whole, Face part) {
@@ -60,10 +46,8 @@ Vertex MeshEditor::split_face(const FacePoint& point) {
   const auto corners = corners_of(mesh_, point.face);
   const auto sides = halfedges_of(mesh_, point.face);
   const auto spokes = lengths_to_corners(rest_lengths_of(mesh_, rest_, point.face), point.barycentrics);
-  std::array<TextureCoordinate, 3> texture{};
-  if (texture_) {
-    for (int i = 0; i < 3; ++i) texture[i] = (*texture_)[sides[(i + 2) % 3]];
-  }
+  std::array<CornerTexture, 3> texture{};
+  for (int i = 0; i < 3; ++i) texture[i] = texture_.at(sides[(i + 2) % 3]);
   ++generation_[point.face];
   const Halfedge in = CGAL::Euler::add_center_vertex(mesh_.halfedge(point.face), mesh_);
   const Vertex centre = mesh_.target(in);
@@ -78,8 +62,8 @@ Vertex MeshEditor::split_face(const FacePoint& point) {
     attributes_.change(mesh_.edge(sides[i]));
     make_part(point.face, mesh_.face(sides[i]));
     if (!texture_) continue;
-    (*texture_)[to_centre] = blend_corners(texture, point.barycentrics);
-    (*texture_)[from_centre] = texture[i];
+    texture_.set(to_centre, blend_corners(texture, point.barycentrics));
+    texture_.set(from_centre, texture[i]);
   }
   return centre;
 }
@@ -96,11 +80,11 @@ Vertex MeshEditor::split_edge(Halfedge halfedge, double t) {
   const auto right = lengths_to_corners(
       {length, rest_[mesh_.edge(mesh_.next(opposite))], rest_[mesh_.edge(mesh_.prev(opposite))]},
       {t, 1 - t, 0});
-  std::array<std::array<TextureCoordinate, 3>, 2> texture{};  // a, b, apex of both sides
+  std::array<std::array<CornerTexture, 3>, 2> texture{};  // a, b, apex of both sides
   const std::array<Halfedge, 2> inside{halfedge, opposite};
   for (int side = 0; texture_ && side < (border ? 1 : 2); ++side) {
     texture[side] = {corner_in(inside[side], a), corner_in(inside[side], b),
-                     (*texture_)[mesh_.next(inside[side])]};
+                     texture_.at(mesh_.next(inside[side]))};
   }
   const Point& pa = mesh_.point(a);
   const Point position = pa + t * (mesh_.point(b) - pa);
@@ -121,7 +105,7 @@ Vertex MeshEditor::split_edge(Halfedge halfedge, double t) {
 /// Cuts the quadrangle of `to_middle`, which ends at the new vertex of the split edge with these ends, into
 /// two triangles. `texture`: of the ends (the new vertex lies at t between) and of the apex.
 void MeshEditor::split_side(Halfedge to_middle, double spoke_length, const std::array<Vertex, 2>& ends,
-                            const std::array<TextureCoordinate, 3>& texture, double t) {
+                            const std::array<CornerTexture, 3>& texture, double t) {
   const Face face = mesh_.face(to_middle);
   const Vertex middle = mesh_.target(to_middle);
   const Halfedge to_apex = mesh_.next(mesh_.next(to_middle));
@@ -135,10 +119,10 @@ void MeshEditor::split_side(Halfedge to_middle, double spoke_length, const std::
       attributes_.change(mesh_.edge(h));
       if (!texture_) continue;
       const Vertex v = mesh_.target(h);
-      if (v == middle) (*texture_)[h] = blend_corners({texture[0], texture[1], texture[1]}, {1 - t, t, 0});
-      if (v == apex) (*texture_)[h] = texture[2];
-      if (v == ends[0]) (*texture_)[h] = texture[0];
-      if (v == ends[1]) (*texture_)[h] = texture[1];
+      if (v == middle) texture_.set(h, blend_corners({texture[0], texture[1], texture[1]}, {1 - t, t, 0}));
+      if (v == apex) texture_.set(h, texture[2]);
+      if (v == ends[0]) texture_.set(h, texture[0]);
+      if (v == ends[1]) texture_.set(h, texture[1]);
     }
   }
 }
@@ -161,13 +145,13 @@ void MeshEditor::flip_edge(Edge edge) {
   }
   if (!texture_) return;
   for (Halfedge part : {h, mesh_.opposite(h)})
-    (*texture_)[part] = (*texture_)[mesh_.target(part) == c ? to_c : to_d];
+    texture_.set(part, texture_.at(mesh_.target(part) == c ? to_c : to_d));
 }
 
-void MeshEditor::set_texture(Vertex vertex, const TextureCoordinate& at) {
+void MeshEditor::set_texture(Vertex vertex, const CornerTexture& at) {
   if (!texture_) return;
   for (Halfedge h : mesh_.halfedges_around_target(mesh_.halfedge(vertex)))
-    if (!mesh_.is_border(h)) (*texture_)[h] = at;
+    if (!mesh_.is_border(h)) texture_.set(h, at);
 }
 
 void MeshEditor::note_moved(Vertex vertex) {
@@ -185,16 +169,20 @@ bool MeshEditor::is_seam(Edge edge) const {
   const Face f = mesh_.face(h), g = mesh_.face(o);
   for (const auto& map : {group_, material_, lining_})
     if (map && (*map)[f] != (*map)[g]) return true;
-  return texture_ && !(same((*texture_)[h], (*texture_)[mesh_.prev(o)]) &&
-                       same((*texture_)[o], (*texture_)[mesh_.prev(h)]));
+  return texture_ && !(same_texture(texture_.at(h), texture_.at(mesh_.prev(o))) &&
+                       same_texture(texture_.at(o), texture_.at(mesh_.prev(h))));
 }
 
-std::optional<std::array<double, 4>> MeshEditor::texture_areas(Edge edge) const {
-  if (!texture_) return std::nullopt;
+std::vector<std::array<double, 4>> MeshEditor::texture_areas(Edge edge) const {
   const Halfedge h = mesh_.halfedge(edge), o = mesh_.opposite(h);
-  const TextureCoordinate &a = (*texture_)[o], &b = (*texture_)[h], &c = (*texture_)[mesh_.next(h)],
-                          &d = (*texture_)[mesh_.next(o)];
-  return std::array{cross(a, b, c), cross(b, a, d), cross(a, d, c), cross(d, b, c)};
+  const CornerTexture at_a = texture_.at(o), at_b = texture_.at(h), at_c = texture_.at(mesh_.next(h)),
+                      at_d = texture_.at(mesh_.next(o));
+  std::vector<std::array<double, 4>> areas;
+  for (std::size_t m = 0; m < 2; ++m) {
+    const TextureCoordinate &a = at_a[m], &b = at_b[m], &c = at_c[m], &d = at_d[m];
+    if (texture_.has(m)) areas.push_back({cross(a, b, c), cross(b, a, d), cross(a, d, c), cross(d, b, c)});
+  }
+  return areas;
 }
 
 std::optional<Edge> MeshEditor::edge_between(Vertex a, Vertex b) const {

@@ -4,6 +4,7 @@
 #include <set>
 #include <vector>
 
+#include "geometry/insert/texture_maps.h"
 #include "geometry/mesh/carry_attributes.h"
 #include "geometry/rest/rest_metric.h"
 
@@ -27,7 +28,7 @@ class MeshEditor {
   /// Flips an inner edge; it is no line edge afterwards. The caller has asked the flip rules.
   void flip_edge(Edge edge);
   /// Sets the texture coordinate of all corners at a vertex that lies on no seam; nothing without texture.
-  void set_texture(Vertex vertex, const TextureCoordinate& at);
+  void set_texture(Vertex vertex, const CornerTexture& at);
   /// A vertex was moved on the cloth: the edges and faces around it are no more what they were.
   void note_moved(Vertex vertex);
 
@@ -40,19 +41,18 @@ class MeshEditor {
   const FaceMap<int>& generation() const { return generation_; }
   /// Texture coordinates, group, material or lining differ across this inner edge (NaN equals NaN).
   bool is_seam(Edge edge) const;
-  /// Areas in the texture chart of the two faces of an inner edge that is no seam, and of the two that a flip
-  /// would make, twice each, signed: (a, b, c), (b, a, d), (a, d, c), (d, b, c). None: the mesh has no
-  /// texture.
-  std::optional<std::array<double, 4>> texture_areas(Edge edge) const;
+  /// In each texture map of the mesh, the areas of the two faces of an inner edge that is no seam, and of the
+  /// two that a flip would make, twice each, signed: (a, b, c), (b, a, d), (a, d, c), (d, b, c).
+  std::vector<std::array<double, 4>> texture_areas(Edge edge) const;
   /// The edge that joins two vertices.
   std::optional<Edge> edge_between(Vertex a, Vertex b) const;
   /// Faces that are new or have other corners than before; ascending.
   const std::set<Face>& changed() const { return changed_; }
 
  private:
-  TextureCoordinate corner_in(Halfedge inside, Vertex vertex) const;
+  CornerTexture corner_in(Halfedge inside, Vertex vertex) const;
   void split_side(Halfedge to_middle, double spoke_length, const std::array<Vertex, 2>& ends,
-                  const std::array<TextureCoordinate, 3>& texture, double t);
+                  const std::array<CornerTexture, 3>& texture, double t);
   void make_part(Face whole, Face part);
 
   Mesh& mesh_;
@@ -60,7 +60,7 @@ class MeshEditor {
   VertexMap<int> line_;
   EdgeMap<bool> line_edge_;
   FaceMap<int> generation_;
-  std::optional<HalfedgeMap<TextureCoordinate>> texture_;
+  TextureMaps texture_;
   std::optional<FaceMap<int>> group_, material_, lining_;
   EditedAttributes attributes_;
   std::set<Face> changed_;

@@ -112,6 +112,8 @@ inline const std::tuple attribute_register{
               "m",
               {unset, computed, "refine_rest"},
               {PlyValue::length, {"rest_length_01", "rest_length_12", "rest_length_20"}}},
+    Attribute{
+        attribute::second_texture, "", {computed, blend, "MeshEditor"}, {PlyValue::texture, {"texcoord_2"}}},
     // Of edges.
     Attribute{attribute::rest_length,
               "m",

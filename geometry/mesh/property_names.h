@@ -69,6 +69,9 @@ inline constexpr PropertyName<Halfedge, double> triangle_rest_length{"h:rest_len
 inline constexpr PropertyName<Edge, bool> line_edge{"e:line_edge", false};
 /// Texture coordinate of the corner of face(h) at target(h).
 inline constexpr PropertyName<Halfedge, TextureCoordinate> texture{"h:texture", {unset_value, unset_value}};
+/// The same in a second texture map, which a glTF may have.
+inline constexpr PropertyName<Halfedge, TextureCoordinate> second_texture{"h:second_texture",
+                                                                          {unset_value, unset_value}};
 /// How often insertion has split a face or the one it came from; after two splits it is left alone.
 inline constexpr PropertyName<Face, int> generation{"f:generation", 0};
 /// Index into the document's group names (OBJ g and o), -1 = none.

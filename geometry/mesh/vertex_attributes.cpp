@@ -56,6 +56,43 @@ VertexMap<RestPosition> ensure_rest_positions(Mesh& mesh) {
   return rest;
 }
 
+std::string key_attribute(const std::string& key, int axis) { return "key_" + key + "_" + "xyz"[axis]; }
+
+std::vector<std::string> shape_key_names(const Mesh& mesh) {
+  std::vector<std::string> names;
+  for (const VertexAttribute& a : vertex_attributes(mesh))
+    for (int axis = 0; axis < 3; ++axis) {
+      if (a.name.size() < 7) continue;
+      const std::string key = a.name.substr(4, a.name.size() - 6);
+      if (a.name == key_attribute(key, axis) && std::ranges::find(names, key) == names.end())
+        names.push_back(key);
+    }
+  return names;
+}
+
+std::vector<Vector> shape_key(const Mesh& mesh, const std::string& key) {
+  std::vector<std::array<double, 3>> moves(mesh.num_vertices(), {0, 0, 0});
+  for (const VertexAttribute& a : vertex_attributes(mesh))
+    for (int axis = 0; axis < 3; ++axis)
+      if (a.name == key_attribute(key, axis))
+        for (const Vertex v : mesh.vertices()) moves[v.idx()][static_cast<std::size_t>(axis)] = a.values[v];
+  std::vector<Vector> result;
+  for (const auto& [x, y, z] : moves) result.emplace_back(x, y, z);
+  return result;
+}
+
+void set_shape_key(Mesh& mesh, const std::string& key, const std::vector<Vector>& moves) {
+  if (key.empty() || key.find_first_of(" \t\r\n") != key.npos)
+    refuse("set_shape_key", "'" + key + "' is no name");
+  if (moves.size() != mesh.num_vertices())
+    refuse("set_shape_key",
+           std::to_string(moves.size()) + " moves for " + std::to_string(mesh.num_vertices()) + " vertices");
+  for (int axis = 0; axis < 3; ++axis) {
+    auto values = ensure_vertex_attribute(mesh, key_attribute(key, axis));
+    for (const Vertex v : mesh.vertices()) values[v] = moves[v.idx()][axis];
+  }
+}
+
 std::size_t normalize_skin_weights(Mesh& mesh, int strongest) {
   if (strongest < 0)
     refuse("normalize_skin_weights", "strongest is " + std::to_string(strongest) + ", not >= 0");

@@ -24,6 +24,17 @@ VertexMap<double> ensure_vertex_attribute(Mesh& mesh, const std::string& name);
 /// are drawn.
 VertexMap<RestPosition> ensure_rest_positions(Mesh& mesh);
 
+/// The attribute that holds how far a shape key moves vertices along an axis, 0 to 2 [m], y up. `key` has no
+/// white space.
+std::string key_attribute(const std::string& key, int axis);
+/// The names of a mesh's shape keys, in the order in which they were added.
+std::vector<std::string> shape_key_names(const Mesh& mesh);
+/// How far a shape key moves each vertex, by index [m]; 0 where the mesh has no such key.
+std::vector<Vector> shape_key(const Mesh& mesh, const std::string& key);
+/// Gives a mesh a shape key, or another shape to one that it has. Throws std::invalid_argument for a name
+/// without a letter or with white space, or where `moves` are not those of all vertices.
+void set_shape_key(Mesh& mesh, const std::string& key, const std::vector<Vector>& moves);
+
 /// Skin weights are the attributes "weight_<joint>". Keeps the `strongest` largest of each vertex (0: all;
 /// at equal weight the joint added first), sets the others to 0 and divides by the sum. A vertex that loses
 /// none and whose weights sum to 1 within 1e-6 keeps its bits; one without any weight too. Returns how many

@@ -26,6 +26,14 @@ inline std::filesystem::path file_of_figure(const std::filesystem::path& path) {
   return figure_path(path).file;
 }
 
+/// What a mesh is called by its path: "worn" of "here/worn.ply", "Skirt" of "avatar.glb#Skirt".
+inline std::string stem_of(const std::filesystem::path& path) {
+  FigurePath named = figure_path(path);
+  for (char& c : named.figure)
+    if (c == '/') c = '-';
+  return named.figure.empty() ? named.file.stem().string() : named.figure;
+}
+
 /// ".ply" of "worn.PLY", ".glb" of "avatar.glb#Skirt": the one way in which formats are told by names.
 inline std::string ending_of(const std::filesystem::path& path) {
   return lower_case(file_of_figure(path).extension().string());

@@ -146,6 +146,4 @@ std::vector<std::string> gltf_key_names(const json& mesh) {
   return names;
 }
 
-std::string key_attribute(const std::string& key, int axis) { return "key_" + key + "_" + "xyz"[axis]; }
-
 }  // namespace furrow::io

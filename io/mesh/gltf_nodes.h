@@ -31,8 +31,4 @@ std::vector<std::string> joint_attributes(const nlohmann::json& document);
 /// A mesh's shape keys: their names, unique in it, without white space.
 std::vector<std::string> gltf_key_names(const nlohmann::json& mesh);
 
-/// The vertex attribute that holds how far a shape key moves a vertex along an axis, 0 to 2, in the frame of
-/// the mesh's node, in the file's unit.
-std::string key_attribute(const std::string& key, int axis);
-
 }  // namespace furrow::io

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "geometry/mesh/errors.h"
+#include "geometry/mesh/vertex_attributes.h"
 #include "io/base/bytes_file.h"
 #include "io/base/child_process.h"
 #include "io/base/figure_path.h"
@@ -76,7 +77,8 @@ class GltfReader {
     for (const GltfMeshNode& node : nodes) read_node(node);
     PolygonSoup& soup = out_.soup;
     const auto is_none = [](const TextureCoordinate& t) { return std::isnan(t[0]); };
-    if (std::ranges::all_of(soup.textures, is_none)) soup.textures.clear();
+    for (auto* textures : {&soup.textures, &soup.second_textures})
+      if (std::ranges::all_of(*textures, is_none)) textures->clear();
     if (!has_colors_) soup.colors.clear();
     for (SoupAttribute& attribute : soup.attributes) attribute.values.resize(soup.points.size(), 0);
     if (!hard_points_.empty())
@@ -129,7 +131,7 @@ class GltfReader {
     const std::size_t before = out_.soup.points.size();
     const std::vector<std::size_t> points = read_points(positions, keys, place);
     read_normals_and_colors(attributes, points, before);
-    read_keys(gltf_key_names(mesh), keys, points, before);
+    read_keys(gltf_key_names(mesh), keys, place, points, before);
     if (skin) read_weights(attributes, *skin, points);
     read_faces(primitive, attributes, points, place.topLeftCorner<3, 3>().determinant() < 0);
   }
@@ -268,18 +270,29 @@ class GltfReader {
     if (lengths > 0 && normals_[point].dot(normal) < 0.99F * lengths) hard_points_.insert(point);
   }
 
+  /// In metres, y up, as positions; of points from there on.
   void read_keys(const std::vector<std::string>& names, const std::vector<Numbers>& keys,
-                 const std::vector<std::size_t>& points, std::size_t before) {
-    for (std::size_t k = 0; k < keys.size(); ++k)
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        std::vector<double>* moves = nullptr;
-        for (std::size_t v = 0; v < points.size(); ++v) {
-          const float move = keys[k][3 * v + axis];
-          if (move == 0 || points[v] < before) continue;
-          if (!moves) moves = &values_of(key_attribute(names[k], static_cast<int>(axis)));
-          (*moves)[points[v]] = move;
+                 const Matrix4d& place, const std::vector<std::size_t>& points, std::size_t before) {
+    for (std::size_t k = 0; k < keys.size(); ++k) {
+      std::array<std::vector<double>, 3> moves;
+      for (std::size_t v = 0; v < points.size(); ++v) {
+        const float* raw = &keys[k][3 * v];
+        if (points[v] < before || (raw[0] == 0 && raw[1] == 0 && raw[2] == 0)) continue;
+        const Eigen::Vector3d move = place.topLeftCorner<3, 3>() * Eigen::Vector3d(raw[0], raw[1], raw[2]);
+        const Vector ours =
+            turned_from_file(options_.metres_per_unit * Vector(move.x(), move.y(), move.z()), options_.up);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          moves[axis].resize(out_.soup.points.size(), 0);
+          moves[axis][points[v]] = ours[static_cast<int>(axis)];
         }
       }
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::vector<double>& along = moves[axis];
+        if (std::ranges::all_of(along, [](double move) { return move == 0; })) continue;
+        std::vector<double>& values = values_of(key_attribute(names[k], static_cast<int>(axis)));
+        for (std::size_t i = before; i < along.size(); ++i) values[i] = along[i];
+      }
+    }
   }
 
   /// A skin's joints become attributes; of points merged into one, the first with weights counts. (The
@@ -295,6 +308,10 @@ class GltfReader {
       const Numbers weights = numbers_in(attributes, weights_name.c_str(), 4);
       const auto joints = document_.whole_numbers_of(document_.accessor(attributes[joints_name]));
       if (joints.size() != weights.size()) throw ContentError("joints have not the vertices of their mesh");
+      std::set<std::uint32_t> used;  // in the skin's order, whatever that of the vertices is
+      for (std::size_t i = 0; i < joints.size(); ++i)
+        if (weights[i] != 0 && joints[i] < skin.attributes.size()) used.insert(joints[i]);
+      for (const std::uint32_t joint : used) values_of(skin.attributes[joint]);
       for (std::size_t v = 0; v < points.size(); ++v)
         if (!taken.contains(v)) add_weights(skin, &joints[4 * v], &weights[4 * v], points[v], v);
     }
@@ -330,7 +347,8 @@ class GltfReader {
     else
       for (std::uint32_t v = 0; v < points.size(); ++v) along.push_back(v);
     const std::vector<std::uint32_t> corners = corners_of(along, primitive.value("mode", 4));
-    const Numbers textures = numbers_in(attributes, "TEXCOORD_0", 2);
+    const Numbers textures = numbers_in(attributes, "TEXCOORD_0", 2),
+                  seconds = numbers_in(attributes, "TEXCOORD_1", 2);
     const int material = material_of(primitive), group = static_cast<int>(out_.group_names.size());
     PolygonSoup& soup = out_.soup;
     for (std::size_t f = 0; f < corners.size(); f += 3) {
@@ -339,14 +357,19 @@ class GltfReader {
         if (v >= points.size())
           throw ContentError("a face names a vertex that is not there; repair the file");
         soup.corners.push_back(points[v]);
-        TextureCoordinate t = attribute::texture.default_value;
-        if (!textures.empty()) t = {textures[2 * v], 1 - static_cast<double>(textures[2 * v + 1])};
-        soup.textures.push_back(t);
+        soup.textures.push_back(texture_of(textures, v));
+        soup.second_textures.push_back(texture_of(seconds, v));
       }
       soup.close_face();
       soup.groups.push_back(group);
       soup.materials.push_back(material);
     }
+  }
+
+  /// glTF has v downwards.
+  static TextureCoordinate texture_of(const Numbers& map, std::size_t v) {
+    if (map.empty()) return attribute::texture.default_value;
+    return {map[2 * v], 1 - static_cast<double>(map[2 * v + 1])};
   }
 
   /// A name for each material of the file, also where two have the same.

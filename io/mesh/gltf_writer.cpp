@@ -36,10 +36,10 @@ struct Skinning {
   std::size_t root = 0;                                  ///< the joint nearest to the tree's root
 };
 
-/// A vertex of a file: glTF has one texture coordinate each.
+/// A vertex of a file: glTF has one texture coordinate each, of each map.
 struct GltfCorner {
   Vertex vertex;
-  std::array<float, 2> texture;
+  std::array<std::array<float, 2>, 2> texture;
   auto operator<=>(const GltfCorner& other) const {
     return std::pair(vertex.idx(), texture) <=> std::pair(other.vertex.idx(), other.texture);
   }
@@ -48,17 +48,11 @@ struct GltfCorner {
 
 /// A shape key of a node's mesh.
 struct GltfKey {
-  std::array<std::optional<VertexMap<double>>, 3> moves;  ///< by axis, in the node's frame; nothing: 0
-  double shown = 0;                                       ///< how far the node shows it
-  bool with_normals = false;                              ///< whether it came with moves of normals
-  std::vector<Float3> normals = {};                       ///< then: those of the scene with it
-
-  Vec3 move_of(Vertex v) const {
-    Vec3 move = Vec3::Zero();
-    for (int axis = 0; axis < 3; ++axis)
-      if (const auto& along = moves[static_cast<std::size_t>(axis)]) move[axis] = (*along)[v];
-    return move;
-  }
+  std::string name;
+  std::vector<Vec3> moves;           ///< by vertex, in the scene
+  double shown = 0;                  ///< how far the node shows it
+  bool with_normals = false;         ///< whether it came with moves of normals
+  std::vector<Float3> normals = {};  ///< then: those of the scene with it
 };
 
 /// What becomes one node's mesh.
@@ -244,7 +238,6 @@ class GltfMeshWriter {
       const std::size_t own = node.at("mesh").get<std::size_t>();
       mesh = meshes_.at(own);
       if (anew_.insert(own).second && is_made_anew(mesh)) slot = own;
-      part.keys = keys_of(part, mesh, node);
       node["mesh"] = slot;
       filled_.insert(part.node);
     } else {
@@ -252,6 +245,17 @@ class GltfMeshWriter {
       document_["scenes"][0]["nodes"].push_back(document_["nodes"].size());
       document_["nodes"].push_back({{"mesh", slot}, {"name", "cloth"}});
     }
+    std::set<Vertex> vertices;
+    for (const auto& [side, faces] : part.by_material)
+      for (const Face f : faces)
+        for (const Vertex v : mesh_.vertices_around_face(mesh_.halfedge(f))) vertices.insert(v);
+    part.keys = keys_of(mesh, part.node >= 0 ? document_["nodes"][part.node] : json::object(), vertices);
+    if (!part.keys.empty()) hide(part.keys, vertices);
+    name_keys(part.keys, mesh);
+    for (json* shown :
+         {&mesh, part.node >= 0 ? &document_["nodes"][part.node] : nullptr})  // one number a key
+      while (shown && shown->contains("weights") && (*shown)["weights"].size() < part.keys.size())
+        (*shown)["weights"].push_back(0);
     json primitives = json::array();
     for (const auto& [side, faces] : part.by_material) {
       json& primitive = primitives.emplace_back(json::object());
@@ -268,36 +272,59 @@ class GltfMeshWriter {
     return list_of(mesh, "primitives").empty() || !mesh["primitives"][0].contains("attributes");
   }
 
-  /// Those of the mesh that was read, and the shape of the part without what its node shows of them.
-  std::vector<GltfKey> keys_of(const GltfPart& part, const json& mesh, const json& node) {
+  /// Those of the mesh that was read, and what else moves the part's vertices.
+  std::vector<GltfKey> keys_of(const json& mesh, const json& node, const std::set<Vertex>& vertices) {
     std::vector<GltfKey> keys;
     const json& weights = list_of(list_of(node, "weights").empty() ? mesh : node, "weights");
-    const std::vector<std::string> names = gltf_key_names(mesh);
-    for (const std::string& name : names) {
+    for (const std::string& name : gltf_key_names(mesh)) {
       const json& targets = list_of(mesh["primitives"][0], "targets");
-      GltfKey& key = keys.emplace_back();
-      for (int axis = 0; axis < 3; ++axis)
-        if (const VertexAttribute* known = attribute_named(key_attribute(name, axis)))
-          key.moves[static_cast<std::size_t>(axis)] = known->values;
-      key.with_normals = keys.size() <= targets.size() && targets[keys.size() - 1].contains("NORMAL");
-      if (keys.size() <= weights.size()) key.shown = weights[keys.size() - 1].get<double>();
+      GltfKey key{name, moves_of(name)};
+      key.with_normals = keys.size() < targets.size() && targets[keys.size()].contains("NORMAL");
+      if (keys.size() < weights.size()) key.shown = weights[keys.size()].get<double>();
+      keys.push_back(std::move(key));
     }
-    const Eigen::Matrix3d to_scene = part.to_node.topLeftCorner<3, 3>().inverse();
-    std::set<Vertex> vertices;
-    for (const auto& [side, faces] : part.by_material)
-      for (const Face f : faces)
-        for (const Vertex v : mesh_.vertices_around_face(mesh_.halfedge(f))) vertices.insert(v);
-    for (const GltfKey& key : keys)
+    for (const std::string& name : shape_key_names(mesh_)) {
+      if (std::ranges::find(keys, name, &GltfKey::name) != keys.end()) continue;
+      GltfKey key{name, moves_of(name)};
+      const auto moves = [&](Vertex v) { return key.moves[v] != Vec3::Zero(); };
+      if (std::ranges::any_of(vertices, moves)) keys.push_back(std::move(key));
+    }
+    return keys;
+  }
+
+  /// In the scene's frame.
+  std::vector<Vec3> moves_of(const std::string& key) {
+    for (int axis = 0; axis < 3; ++axis) carried_.insert(key_attribute(key, axis));
+    std::vector<Vec3> moves;
+    for (const Vector& ours : shape_key(mesh_, key)) {
+      const Vector move = to_file(CGAL::ORIGIN + ours, has_source_ ? options_ : WriteOptions{});
+      moves.emplace_back(move.x(), move.y(), move.z());
+    }
+    return moves;
+  }
+
+  /// The shape without what the node shows of the keys, and its normals.
+  void hide(std::vector<GltfKey>& keys, const std::set<Vertex>& vertices) {
+    const auto move = [&](std::vector<Vec3>& points, const GltfKey& key, double share) {
       for (const Vertex v : vertices)
-        if (key.shown != 0) points_[v] -= key.shown * (to_scene * key.move_of(v));
+        if (share != 0) points[v] += share * key.moves[v];
+    };
+    for (const GltfKey& key : keys) move(points_, key, -key.shown);
     normals_ = smooth_normals(bridge::triangles_of(mesh_), points_);
     for (GltfKey& key : keys) {
       if (!key.with_normals) continue;
       std::vector<Vec3> moved = points_;
-      for (const Vertex v : vertices) moved[v] += to_scene * key.move_of(v);
+      move(moved, key, 1);
       key.normals = smooth_normals(bridge::triangles_of(mesh_), moved);
     }
-    return keys;
+  }
+
+  static void name_keys(const std::vector<GltfKey>& keys, json& mesh) {
+    if (keys.empty()) return;
+    if (!mesh.contains("extras") || !mesh["extras"].is_object()) mesh["extras"] = json::object();
+    json names = list_of(mesh["extras"], "targetNames");
+    for (std::size_t k = names.size(); k < keys.size(); ++k) names.push_back(keys[k].name);
+    mesh["extras"]["targetNames"] = std::move(names);
   }
 
   /// Meshes that have no face any more keep their numbers, as what no node shows.
@@ -314,10 +341,13 @@ class GltfMeshWriter {
   void add_primitive(const GltfPart& part, const std::vector<Face>& faces, bool backs,
                      const std::optional<Skinning>& skinning, json& primitive, GltfAccessors& accessors) {
     const bool mirrored = (part.to_node.topLeftCorner<3, 3>().determinant() < 0) != backs;
-    const auto textures = find_map(mesh_, attribute::texture);
+    const auto textures = find_map(mesh_, attribute::texture),
+               seconds = find_map(mesh_, attribute::second_texture);
+    const auto none = gltf_texture(attribute::texture.default_value);
     const auto corner_of = [&](Halfedge h) {
-      return GltfCorner{mesh_.target(h),
-                        gltf_texture(textures ? (*textures)[h] : attribute::texture.default_value)};
+      return GltfCorner{
+          mesh_.target(h),
+          {textures ? gltf_texture((*textures)[h]) : none, seconds ? gltf_texture((*seconds)[h]) : none}};
     };
     std::vector<GltfCorner> corners;  // in the mesh's order
     for (const Face f : faces)
@@ -339,11 +369,10 @@ class GltfMeshWriter {
         add(accessors, indices, 3 * faces.size(), gltf_unsigned_int, "SCALAR", gltf_indices);
     json& attributes = primitive["attributes"];
     add_shape(part, corners, backs, attributes, accessors);
-    const auto has_texture = [](const GltfCorner& c) {
-      return c.texture != gltf_texture(attribute::texture.default_value);
-    };
-    if (std::ranges::any_of(corners, has_texture) || uses_texture(primitive))
-      add_textures(corners, attributes, accessors);
+    for (std::size_t map = 0; map < 2; ++map)
+      if (uses_texture(primitive, map) ||
+          std::ranges::any_of(corners, [&](const GltfCorner& c) { return c.texture[map] != none; }))
+        add_textures(corners, map, attributes, accessors);
     add_colors(corners, attributes, accessors);
     if (skinning) add_weights(*skinning, corners, attributes, accessors);
     for (const GltfKey& key : part.keys)
@@ -354,7 +383,7 @@ class GltfMeshWriter {
                  GltfAccessors& accessors) {
     std::vector<Float3> moves, turns;
     for (const GltfCorner& corner : corners) {
-      const Vec3 move = key.move_of(corner.vertex);
+      const Vec3 move = part.to_node.topLeftCorner<3, 3>() * key.moves[corner.vertex];
       moves.push_back(
           {static_cast<float>(move[0]), static_cast<float>(move[1]), static_cast<float>(move[2])});
       if (!key.with_normals) continue;
@@ -456,17 +485,19 @@ class GltfMeshWriter {
     attributes["COLOR_0"] = add(accessors, bytes, corners.size(), gltf_float, "VEC4", gltf_vertex_data);
   }
 
-  void add_textures(const std::vector<GltfCorner>& corners, json& attributes, GltfAccessors& accessors) {
+  void add_textures(const std::vector<GltfCorner>& corners, std::size_t map, json& attributes,
+                    GltfAccessors& accessors) {
     std::string bytes;
-    for (const GltfCorner& corner : corners) append_all(bytes, corner.texture);
-    attributes["TEXCOORD_0"] = add(accessors, bytes, corners.size(), gltf_float, "VEC2", gltf_vertex_data);
+    for (const GltfCorner& corner : corners) append_all(bytes, corner.texture[map]);
+    attributes["TEXCOORD_" + std::to_string(map)] =
+        add(accessors, bytes, corners.size(), gltf_float, "VEC2", gltf_vertex_data);
   }
 
-  /// Whether a primitive's material has a texture anywhere.
-  bool uses_texture(const json& primitive) const {
+  /// Whether a primitive's material has a texture anywhere, on that map.
+  bool uses_texture(const json& primitive, std::size_t map) const {
     if (!has_source_ || !primitive.contains("material")) return false;
     const std::string text = document_["materials"].at(primitive["material"].get<std::size_t>()).dump();
-    return text.find("Texture\":{") != text.npos;
+    return text.find("Texture\":{") != text.npos && (map == 0 || text.find("\"texCoord\":1") != text.npos);
   }
 
   void add_weights(const Skinning& skinning, const std::vector<GltfCorner>& corners, json& attributes,
@@ -545,21 +576,16 @@ class GltfMeshWriter {
       lost_.push_back(
           "the rest of " + std::to_string(unweighted_.size()) +
           " vertices without skin weights, which now follow the skeleton's root; give them weights");
-    std::string bound, keys, others;
+    std::string bound, others;
     for (const VertexAttribute& a : attributes_) {
       if (carried_.contains(a.name)) continue;
-      std::string& names = a.name.starts_with("weight_") ? bound : a.name.starts_with("key_") ? keys : others;
+      std::string& names = a.name.starts_with("weight_") ? bound : others;
       names += (names.empty() ? "" : ", ") + a.name;
     }
     if (!bound.empty())
       lost_.push_back("the skin weights " + bound +
                       ", whose joints are in no skeleton of a glTF that was read; furrow transfer SOURCE.glb "
                       "takes the shape back to a mesh that has one");
-    if (!keys.empty())
-      lost_.push_back(
-          "the shape keys " + keys +
-          ", which the glTF that was read does not have; furrow transfer SOURCE.glb takes the shape back "
-          "to a mesh that has them");
     if (!others.empty()) lost_.push_back("the vertex attributes " + others + "; a PLY keeps them");
   }
 

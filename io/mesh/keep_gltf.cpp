@@ -15,7 +15,7 @@ namespace {
 using geometry::ContentError;
 using nlohmann::json;
 
-constexpr const char* second_map = "; only the first is kept: let the one that counts be the first";
+constexpr const char* further_map = "; only two are kept: let those that count be the first";
 
 std::string image_type(std::string_view bytes) {
   if (bytes.starts_with("\x89PNG")) return "image/png";
@@ -111,8 +111,8 @@ class GltfKeeper {
   /// What our mesh has no place for.
   void tell_lost(const json& primitive, const std::string& mesh) {
     const json attributes = primitive.value("attributes", json::object());
-    if (attributes.contains("TEXCOORD_1")) lose("the second UV map of " + mesh + second_map);
-    if (attributes.contains("COLOR_1")) lose("the second colours of " + mesh + second_map);
+    if (attributes.contains("TEXCOORD_2")) lose("the third UV map of " + mesh + further_map);
+    if (attributes.contains("COLOR_1")) lose("the second colours of " + mesh + "; only the first are kept");
     for (const auto& [name, accessor] : attributes.items())
       if (name.starts_with("_")) lose("the attribute " + name + " of " + mesh + "; a PLY keeps such");
     if (primitive.value("mode", 4) < 4) lose("the points and lines of " + mesh + ", which are not read");
@@ -164,11 +164,11 @@ class GltfKeeper {
     }
   }
 
-  /// Textures that lie on other UV maps than the first go: there is none in what is written.
+  /// Textures that lie on other UV maps than the first two go: there is none in what is written.
   void keep_materials() {
     if (!to_.contains("materials")) return;
     for (std::size_t m = 0; m < to_["materials"].size(); ++m)
-      drop_second_maps(to_["materials"][m], called("material", to_["materials"], m));
+      drop_further_maps(to_["materials"][m], called("material", to_["materials"], m));
   }
 
   static std::size_t uv_map_of(const json& texture) {
@@ -178,17 +178,18 @@ class GltfKeeper {
     return moved.contains("texCoord") ? count_of(moved, "texCoord") : map;
   }
 
-  void drop_second_maps(json& value, const std::string& material) {
+  void drop_further_maps(json& value, const std::string& material) {
     if (!value.is_object()) return;
     std::vector<std::string> dropped;
     for (auto& [key, inner] : value.items()) {
-      if (inner.is_object() && inner.contains("index") && uv_map_of(inner) > 0)
+      if (inner.is_object() && inner.contains("index") && uv_map_of(inner) > 1)
         dropped.push_back(key);
       else
-        drop_second_maps(inner, material);
+        drop_further_maps(inner, material);
     }
     for (const std::string& key : dropped) {
-      lose("the " + key + " of " + material + ", which lies on another UV map than the first" + second_map);
+      lose("the " + key + " of " + material + ", which lies on another UV map than the first two" +
+           further_map);
       value.erase(key);
     }
   }

@@ -320,10 +320,11 @@ class PlyReader {
 
   void read_faces(const PlyElement& element) {
     const auto indices = find_column(element, {"vertex_indices", "vertex_index"}, PlyKind::list);
-    const auto texcoord = find_column(element, {"texcoord"}, PlyKind::list);
+    const auto texcoord = find_column(element, {"texcoord"}, PlyKind::list),
+               second = find_column(element, {"texcoord_2"}, PlyKind::list);
     const Names length_names = names_of(attribute::triangle_rest_length);
     const Columns lengths = find_group(element, {length_names});
-    Names known{"vertex_indices", "vertex_index", "texcoord"};
+    Names known{"vertex_indices", "vertex_index", "texcoord", "texcoord_2"};
     if (!lengths.empty()) known.insert(known.end(), length_names.begin(), length_names.end());
     of_faces_.for_each([&](auto& slot) {
       slot.columns = find_group(element, {slot.names()});
@@ -336,7 +337,8 @@ class PlyReader {
       const auto& corners = row_.lists[*indices];
       for (const double c : corners) soup_.corners.push_back(corner(c));
       soup_.close_face();
-      if (texcoord) add_textures(row_.lists[*texcoord], corners.size());
+      if (texcoord) add_textures(row_.lists[*texcoord], corners.size(), soup_.textures);
+      if (second) add_textures(row_.lists[*second], corners.size(), soup_.second_textures);
       if (!lengths.empty()) add_triangle_lengths(lengths, corners.size());
       take(of_faces_);
     }
@@ -377,12 +379,13 @@ class PlyReader {
     return static_cast<std::size_t>(c);
   }
 
-  void add_textures(const std::vector<double>& values, std::size_t corners) {
+  void add_textures(const std::vector<double>& values, std::size_t corners,
+                    std::vector<TextureCoordinate>& textures) const {
     if (values.size() != 2 * corners && !values.empty())
       rows_.fail("texcoord must hold two numbers a corner, or none");
     for (std::size_t k = 0; k < corners; ++k)
-      soup_.textures.push_back(values.empty() ? attribute::texture.default_value
-                                              : TextureCoordinate{values[2 * k], values[2 * k + 1]});
+      textures.push_back(values.empty() ? attribute::texture.default_value
+                                        : TextureCoordinate{values[2 * k], values[2 * k + 1]});
   }
 
   void add_triangle_lengths(const Columns& columns, std::size_t corners) {

@@ -22,7 +22,8 @@ struct PolygonSoup {
   std::vector<SoupAttribute> attributes;
   std::vector<std::size_t> first_corner = {0};  ///< F + 1 numbers: face f has corners [f], …, [f + 1] - 1
   std::vector<std::size_t> corners;             ///< point of each corner, from 0; may be out of range
-  std::vector<geometry::TextureCoordinate> textures;  ///< empty, or one a corner
+  std::vector<geometry::TextureCoordinate> textures;         ///< empty, or one a corner
+  std::vector<geometry::TextureCoordinate> second_textures;  ///< the same of a second map
   /// Empty, or one a corner: rest length in its face alone of the edge to the next corner [m], NaN = unset.
   std::vector<double> triangle_rest_lengths;
   std::vector<int> groups;              ///< empty, or one a face

@@ -88,7 +88,8 @@ void check(const SoupFile& file) {
       !std::ranges::is_sorted(s.first_corner))
     fail();
   if (!fits(s.colors.size(), s.points.size()) || !fits(s.textures.size(), s.corners.size()) ||
-      !fits(s.groups.size(), s.faces()) || !fits(s.materials.size(), s.faces()))
+      !fits(s.second_textures.size(), s.corners.size()) || !fits(s.groups.size(), s.faces()) ||
+      !fits(s.materials.size(), s.faces()))
     fail();
   if (std::ranges::any_of(s.attributes, [&](const auto& a) { return a.values.size() != s.points.size(); }))
     fail();
@@ -114,6 +115,7 @@ std::string to_bytes(const SoupFile& file) {
   put(bytes, file.soup.first_corner);
   put(bytes, file.soup.corners);
   put(bytes, file.soup.textures);
+  put(bytes, file.soup.second_textures);
   put(bytes, file.soup.groups);
   put(bytes, file.soup.materials);
   for (const SoupAttribute& attribute : file.soup.attributes) put(bytes, attribute.values);
@@ -138,6 +140,7 @@ SoupFile soup_from_bytes(std::string_view bytes) {
   in.get(file.soup.first_corner);
   in.get(file.soup.corners);
   in.get(file.soup.textures);
+  in.get(file.soup.second_textures);
   in.get(file.soup.groups);
   in.get(file.soup.materials);
   for (SoupAttribute& attribute : file.soup.attributes) in.get(attribute.values);

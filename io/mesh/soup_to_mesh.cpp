@@ -169,11 +169,12 @@ void fill_vertex_map(SoupMesh& out, const PropertyName<K, V>& name, const Values
 
 /// Texture coordinates of corners, and rest lengths of edges that are a face's own.
 void fill_corners(const PolygonSoup& soup, const Triangles& triangles, Mesh& mesh) {
-  std::optional<HalfedgeMap<TextureCoordinate>> textures;
+  std::optional<HalfedgeMap<TextureCoordinate>> textures, second_textures;
   std::optional<HalfedgeMap<double>> rest_lengths;
   if (!soup.textures.empty()) textures = ensure_map(mesh, attribute::texture);
+  if (!soup.second_textures.empty()) second_textures = ensure_map(mesh, attribute::second_texture);
   if (!soup.triangle_rest_lengths.empty()) rest_lengths = ensure_map(mesh, attribute::triangle_rest_length);
-  if (!textures && !rest_lengths) return;
+  if (!textures && !second_textures && !rest_lengths) return;
   for (const Face f : mesh.faces())
     for (const Halfedge h : mesh.halfedges_around_face(mesh.halfedge(f))) {
       const auto corner_at = [&](std::size_t v) {
@@ -182,6 +183,7 @@ void fill_corners(const PolygonSoup& soup, const Triangles& triangles, Mesh& mes
       };
       const std::size_t to = corner_at(mesh.target(h)), from = corner_at(mesh.source(h));
       if (textures) (*textures)[h] = soup.textures[to];
+      if (second_textures) (*second_textures)[h] = soup.second_textures[to];
       // The corner before the other one on the way round; a face that was turned over is walked backwards.
       const std::size_t low = std::min(from, to), high = std::max(from, to);
       if (rest_lengths) (*rest_lengths)[h] = soup.triangle_rest_lengths[high - low == 1 ? low : high];

@@ -283,7 +283,7 @@ void settle_drawn(const WrinkleJob& job, const RestPlan& plan, const Budget& bud
                         : drape_garment(scene, body, {}, false, there);
   report.budget_spent = draped.budget_spent = draped.report.stopped && draped.measured && budget.is_spent();
   draped.refinements = plan.refinements;
-  draped.name = scene.garment.stem().string();
+  draped.name = io::stem_of(scene.garment);
   for (const DrapeRemark& r : remarks_on({&draped, 1}))
     if (r.fails)
       report.failures.push_back(r.remark);

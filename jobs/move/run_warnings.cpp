@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "io/base/figure_path.h"
 #include "jobs/base/read_inputs.h"
 #include "jobs/body/world_body.h"
 
@@ -22,7 +23,7 @@ constexpr double most_open = 0.1;    // of all steps, with which a motion is sti
 
 Warning pierced_between_vertices(const io::Scene& scene, const BodyEnd& body) {
   return {"body_comes_through",
-          scene.garment.stem().string() + ": " + words_of_piercing(body) +
+          io::stem_of(scene.garment) + ": " + words_of_piercing(body) +
               "; refine the garment where it is made (`furrow subdivide`), or keep it farther off (`gap`)",
           scene.garment.string(), "material.gap"};
 }
@@ -179,7 +180,7 @@ std::optional<Warning> falls_freely(const io::Scene& scene, const std::vector<st
   if (scene.body || !pins.empty() || scene.simulation.gravity.isZero()) return std::nullopt;
   return Warning{
       "nothing_holds",
-      scene.garment.stem().string() +
+      io::stem_of(scene.garment) +
           ": falls, as there is neither a body nor a pin: name a body with `body`, or what is held "
           "with `pin_loop`, `pin_group`, `pin_box` or `pin_vertices`",
       scene.garment.string(), "body"};

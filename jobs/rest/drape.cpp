@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "io/animation/animation_file.h"
+#include "io/base/figure_path.h"
 #include "io/scene/garment_list.h"
 #include "io/scene/settings_schema.h"
 #include "jobs/base/budget.h"
@@ -100,7 +101,7 @@ std::vector<std::filesystem::path> garments_of(const GarmentScenes& scenes,
 std::vector<std::string> names_of(std::span<const std::filesystem::path> paths) {
   std::vector<std::string> names;
   for (const std::filesystem::path& path : paths) {
-    const std::string stem = path.stem().string();
+    const std::string stem = io::stem_of(path);
     std::string name = stem;
     for (int i = 2; std::find(names.begin(), names.end(), name) != names.end(); ++i)
       name = stem + "-" + std::to_string(i);
@@ -278,7 +279,7 @@ DrapeJobReport drape_all(const DrapeJob& job, Listener& listener) {
     report.garments.push_back(
         drape_garment(scenes[i], body ? &*body : nullptr, job.settings, choose, context));
     Draped& draped = report.garments.back();
-    draped.name = job.fabrics.empty() ? open.scene.garment.stem().string() : job.fabrics[i];
+    draped.name = job.fabrics.empty() ? io::stem_of(open.scene.garment) : job.fabrics[i];
     if (draped.report.stopped) break;
   }
   if (job.fabrics.size() < 2) note_material(report.garments[0].file, open.document, report.garments[0].gap);

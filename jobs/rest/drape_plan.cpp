@@ -17,6 +17,7 @@
 #include "geometry/refine/local_refinement.h"
 #include "geometry/rest/rest_metric.h"
 #include "io/base/field_words.h"
+#include "io/base/figure_path.h"
 #include "jobs/base/gate.h"
 #include "jobs/base/measure_crossings.h"
 #include "jobs/base/read_inputs.h"
@@ -123,9 +124,8 @@ double gap_of(const io::Scene& scene, const BodyCollider* body, const geometry::
   if (gap <= 1.5 * wanted) return gap;
   const bool by_side = depth > gap - depth - wanted;
   context.warn("gap_raised",
-               scene.garment.stem().string() + ": keeps " + geometry::length_text(gap) +
-                   " from the body, not " + geometry::length_text(wanted) +
-                   ", so strain and ease come out too large; " +
+               io::stem_of(scene.garment) + ": keeps " + geometry::length_text(gap) + " from the body, not " +
+                   geometry::length_text(wanted) + ", so strain and ease come out too large; " +
                    (by_side ? "its inner side lies " + geometry::length_text(depth) +
                                   " nearer to the body: take that out of the file where it is not needed"
                             : remedy_of_gap(garment, sag, scene.subdivide, wanted, tolerance, depth)),

@@ -8,6 +8,7 @@
 #include "geometry/mesh/edge_metric.h"
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/property_names.h"
+#include "io/base/figure_path.h"
 #include "jobs/base/card.h"
 #include "jobs/base/gate.h"
 #include "jobs/base/measure_crossings.h"
@@ -80,8 +81,7 @@ Body read_wearer(const MeshInput& input, const FitJob& job, const Context& conte
 
 FittedGarment measure(const MeshInput& worn, const Body& body, const FitJob& job, const Context& context) {
   const std::string path = name_of(worn, "garment");
-  FittedGarment fitted{
-      path, std::filesystem::path(path).stem().string(), read_garment(worn, context), {}, job.options, {}};
+  FittedGarment fitted{path, io::stem_of(path), read_garment(worn, context), {}, job.options, {}};
   geometry::Mesh& mesh = fitted.garment.mesh;
   heed(faults_of_pair(mesh, body.outline, job.body_unit.has_value()), path, context);
   if (job.rest) take_rest(mesh, job, context);

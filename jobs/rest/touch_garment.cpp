@@ -64,6 +64,7 @@ bool settle_around(const geometry::Touch& touch, const std::vector<physics::Vec3
   for (std::size_t i = 0; i < near.size(); ++i)
     if (!(near[i] > 0)) far.push_back(int(i));
   physics::pin(cloth.particles, far);
+  physics::drop_held_elements(cloth);
   bridge::DrapeOptions options = plan.options;
   if (plan.settings.self_contact != SelfContactUse::off) hold_apart(options, plan.settings);
   options.settle.max_iterations = most_touch_iterations;

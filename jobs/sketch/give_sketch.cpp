@@ -55,7 +55,7 @@ fs::path write_maps(const fs::path& folder, const fs::path& original, io::MeshFi
   job.low = transfer(shape, replacing).result;
   job.high = std::move(drawn);
   job.frame = frame;
-  job.prefix = (folder / original.stem()).string();
+  job.prefix = (folder / io::stem_of(original)).string();
   const BakeReport report = bake(job, replacing);
   if (!report.ran) throw physics::Cancelled("cancelled");
   return report.written.front();
@@ -74,8 +74,10 @@ fs::path give_sketch(const Sketch& sketch, const Json& strokes, const std::strin
   fs::create_directories(folder, failed);
   if (failed) throw std::runtime_error(folder.string() + ": cannot be made: " + failed.message());
   if (maps) return write_maps(folder, original, std::move(drawn), sketch.frame, listener);
-  const std::string name = original.stem().string();
-  const std::string ending = io::ending_of(original) == ".gltf" ? ".glb" : original.extension().string();
+  const std::string name = io::stem_of(original);
+  const std::string ending = io::is_written_mesh(io::ending_of(original))
+                                 ? io::file_of_figure(original).extension().string()
+                                 : ".glb";
   const fs::path path = folder / (on_original ? name + "-original" + ending : name + "." + as);
   if (on_original)
     write_on_original(path, original, std::move(drawn), sketch.frame, listener);

@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "physics/cloth/pins.h"
 
+#include <algorithm>
+
 #include "physics/base/require.h"
+#include "physics/cloth/hinge_forces.h"
+#include "physics/cloth/membrane.h"
+#include "physics/cloth/spring_forces.h"
+#include "physics/cloth/tension_forces.h"
 
 namespace furrow::physics {
 
@@ -13,6 +19,13 @@ void pin(Particles& particles, std::span<const int> indices) {
     particles.inv_mass[i] = 0;
     particles.v[i] = Vec3::Zero();
   }
+}
+
+void drop_held_elements(Cloth& cloth) {
+  const auto held = [&](int i) { return cloth.particles.inv_mass[i] == 0; };
+  for_each_kind(cloth, [&](auto& elements, auto...) {
+    std::erase_if(elements, [&](const auto& e) { return std::ranges::all_of(vertices(e), held); });
+  });
 }
 
 namespace {

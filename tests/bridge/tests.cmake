@@ -5,6 +5,7 @@ furrow_add_tests(bridge bridge LIBRARIES furrow::bridge garment_cases SOURCES
   keeping/draw_more_test.cpp
   draping/energy_parts_test.cpp
   draping/fit_ease_test.cpp
+  draping/follow_body_test.cpp
   draping/fit_piercing_test.cpp
   draping/fit_report_test.cpp
   draping/fit_zones_test.cpp

@@ -144,6 +144,7 @@ std::vector<Key> keys() {
           {"give", "as", Json::object(), with(no_texts, {"\"\"", "\"exe\"", "\"../ply\"", "\"moving glb\""})},
           {"open", "item", Json::object(), with(no_texts, {"\"\"", "\"../skirt\"", "\"/etc/passwd\""})},
           {"open", "garment", Json::object(), with(no_texts, {"\"\"", "\"1\"", "\"/etc/passwd\""})},
+          {"open", "figures", {{"garment", "1"}}, {"7", "[]", "{\"garment\":7}", "null"}},
           {"pull", "vertex", {{"to", {0, 0, 0}}}, {"0", "-1", "\"0\"", "null"}}};
 }
 

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/figure/shape_body.h"
+#include "tests/io/mesh/seam.h"
 #include "tests/studio/visitor.h"
 #include "tests/test_meshes.h"
 #include "tests/test_paths.h"
@@ -222,6 +223,28 @@ TEST_CASE("studio rooms: the page is told of edges where the texture is parted, 
   const std::size_t at = 6 + 6 * words[2] + 3 * words[3];
   CHECK(std::set<std::uint32_t>{words[at], words[at + 1]} == std::set<std::uint32_t>{1, 4});
   CHECK(words[at + 2] == 0x80000000u);
+}
+
+TEST_CASE("studio rooms: of a file with several figures one is opened by its name") {
+  const House house("figures");
+  const studio::Studio studio(house.places());
+  Visitor page(studio);
+  tests::Seam seam;
+  seam.scene["nodes"].push_back({{"mesh", 0}, {"name", "cuff \"left\""}, {"translation", {0, 3, 0}}});
+  seam.scene["scenes"][0]["nodes"] = {0, 1};
+  const auto open = [&](const std::string& figure) {
+    return page.ask("open", {{"garment", number_of(studio, "avatar.glb", seam.glb())},
+                             {"figures", {{"garment", figure}}},
+                             {"unit", "m"},
+                             {"up", "y"}});
+  };
+  CHECK(open("hood").at("refused").get<std::string>().find(
+            "it has no figure 'hood'; it has 'sleeve', 'cuff") != std::string::npos);
+  REQUIRE(open("cuff \"left\"").contains("done"));
+  page.ask("show");
+  std::vector<std::uint32_t> words(page.cloth.size() / 4);
+  std::memcpy(words.data(), page.cloth.data(), 4 * words.size());
+  CHECK(words.at(2) == 4);  // vertices: of the one figure
 }
 
 TEST_CASE(

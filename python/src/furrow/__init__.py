@@ -113,6 +113,7 @@ _JOBS = {
             "and strain [-], and colours."),
     "transfer": (("original", "wrinkled"), (),
                  "Bring the shape of a wrinkled mesh back to the mesh it was made of."),
+    "follow": (("garment",), (), "Give a garment the shape keys of its body, so that it goes along."),
     "bake": (("low", "high"), (),
              "Bake a wrinkled mesh into textures of the mesh it was made of: OUTPUT_normal.png and others."),
     "subdivide": (("mesh",), (), "Refine a mesh along strokes or everywhere; strokes leave its shape as it is."),

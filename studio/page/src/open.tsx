@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is drawn on: a garment from the gallery, or the user's own file, with a body or without.
 import { useEffect, useRef, useState } from "preact/hooks";
+import { figuresOf } from "./figures";
 import type { GalleryItem } from "./protocol";
 
 export interface Files {
   garment: File | null;
   body: File | null;
   madeFor: File | null;
+  figures?: Partial<Record<Role, string>>; // of a file that has several
 }
+type Role = "garment" | "body" | "madeFor";
 export interface OpenWords {
   item?: string;
   files?: Files;
@@ -25,7 +28,7 @@ interface Props {
 
 /** Files that were dropped together: what is called a body or a person is the body, else the second. */
 export function sorted(dropped: File[]): Files {
-  const meshes = dropped.filter((f) => /\.(obj|ply|off|stl|glb|vrm)$/i.test(f.name));
+  const meshes = dropped.filter((f) => /\.(obj|ply|off|stl|glb|vrm|fbx)$/i.test(f.name));
   const figure =
     meshes.length > 1
       ? (meshes.find((f) => /body|figure|mannequin|avatar|human|person/i.test(f.name)) ?? meshes[1])
@@ -60,23 +63,46 @@ function Choice({
 
 function FileField({
   label,
-  file,
+  role,
+  files,
   change,
 }: {
   label: string;
-  file: File | null;
-  change(file: File | null): void;
+  role: Role;
+  files: Files;
+  change(files: Partial<Files>): void;
 }) {
+  const file = files[role];
+  const [names, setNames] = useState<string[]>([]);
+  useEffect(() => {
+    let current = true;
+    setNames([]);
+    if (file) void figuresOf(file).then((found) => current && setNames(found));
+    return () => void (current = false);
+  }, [file]);
+  const named = (name: string) => change({ figures: { ...files.figures, [role]: name } });
   return (
-    <label class="file">
-      {label}
-      <input
-        type="file"
-        accept=".obj,.ply,.off,.stl,.glb,.vrm"
-        onChange={(e) => change(e.currentTarget.files?.[0] ?? null)}
-      />
-      {file && <span class="note">{file.name}</span>}
-    </label>
+    <>
+      <label class="file">
+        {label}
+        <input
+          type="file"
+          accept=".obj,.ply,.off,.stl,.glb,.vrm,.fbx"
+          onChange={(e) =>
+            change({ [role]: e.currentTarget.files?.[0] ?? null, figures: { ...files.figures, [role]: "" } })
+          }
+        />
+        {file && <span class="note">{file.name}</span>}
+      </label>
+      {names.length > 1 && (
+        <Choice
+          label={`${label} in it`}
+          value={files.figures?.[role] ?? ""}
+          change={named}
+          all={[["", "all of it"], ...names.map((name): [string, string] => [name, name])]}
+        />
+      )}
+    </>
   );
 }
 
@@ -92,6 +118,11 @@ export function Open({ items, first, files, bad, open, close }: Props) {
   useEffect(() => {
     if (dropped.current !== files) setChosen((dropped.current = files));
   }, [files]);
+  const take = (files: Partial<Files>) =>
+    setChosen((c) => {
+      const now = { ...c, ...files };
+      return { ...now, madeFor: now.body && now.madeFor };
+    });
   const go = async (words: OpenWords) => {
     setBusy(true);
     await open(words);
@@ -118,26 +149,13 @@ export function Open({ items, first, files, bad, open, close }: Props) {
       )}
       <h3>Your own</h3>
       <p class="note">
-        Drop files anywhere on this page, or choose them: OBJ, PLY, OFF, STL or GLB, up to 64 MB each.
+        Drop files anywhere on this page, or choose them: OBJ, PLY, OFF, STL, GLB, VRM or FBX, up to 64 MB
+        each.
       </p>
       <div class="fields">
-        <FileField
-          label="Garment"
-          file={chosen.garment}
-          change={(garment) => setChosen((c) => ({ ...c, garment }))}
-        />
-        <FileField
-          label="Body"
-          file={chosen.body}
-          change={(body) => setChosen((c) => ({ ...c, body, madeFor: body && c.madeFor }))}
-        />
-        {chosen.body && (
-          <FileField
-            label="Made for"
-            file={chosen.madeFor}
-            change={(madeFor) => setChosen((c) => ({ ...c, madeFor }))}
-          />
-        )}
+        <FileField label="Garment" role="garment" files={chosen} change={take} />
+        <FileField label="Body" role="body" files={chosen} change={take} />
+        {chosen.body && <FileField label="Made for" role="madeFor" files={chosen} change={take} />}
         <Choice
           label="Unit"
           value={unit}

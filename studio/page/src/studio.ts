@@ -459,10 +459,16 @@ export class Studio {
       const garment = await sent(files?.garment),
         body = await sent(files?.body),
         made_for = await sent(files?.madeFor);
+      const figures = {
+        ...(files?.figures?.garment && { garment: files.figures.garment }),
+        ...(files?.figures?.body && { body: files.figures.body }),
+        ...(files?.figures?.madeFor && { made_for: files.figures.madeFor }),
+      };
       const own = {
         garment,
         ...(body && { body }),
         ...(made_for && { made_for }),
+        ...(Object.keys(figures).length > 0 && { figures }),
         ...(unit && { unit }),
         ...(up && { up }),
       };

@@ -125,3 +125,22 @@ TEST_CASE("vertex_attributes: the strongest skin weights are kept and sum to 1, 
   CHECK_THROWS_AS(normalize_skin_weights(mesh, 1), ContentError);
   CHECK(list[0].values[Vertex(1)] == 1);
 }
+
+TEST_CASE("vertex_attributes: shape keys are told by their names, and moves that a mesh lacks are 0") {
+  Mesh mesh = single_triangle();
+  CHECK(shape_key_names(mesh).empty());
+  const std::vector<Vector> moves = {{1, 0, 0}, {0, 2, 0}, {0, 0, -3}};
+  set_shape_key(mesh, "A*B", moves);
+  ensure_vertex_attribute(mesh, "key_z")[Vertex(0)] = 7;       // none of ours
+  ensure_vertex_attribute(mesh, "key_Long_y")[Vertex(1)] = 4;  // along one axis alone
+  ensure_vertex_attribute(mesh, "weight_hand");
+  CHECK(shape_key_names(mesh) == std::vector<std::string>{"A*B", "Long"});
+  CHECK(shape_key(mesh, "A*B") == moves);
+  CHECK(shape_key(mesh, "Long") == std::vector<Vector>{{0, 0, 0}, {0, 4, 0}, {0, 0, 0}});
+  CHECK(shape_key(mesh, "none") == std::vector<Vector>(3, Vector(0, 0, 0)));
+  set_shape_key(mesh, "Long", moves);
+  CHECK(shape_key(mesh, "Long") == moves);
+  for (const char* bad : {"", "a b", "a\n"})
+    CHECK_THROWS_AS(set_shape_key(mesh, bad, moves), std::invalid_argument);
+  CHECK_THROWS_AS(set_shape_key(mesh, "C", {}), std::invalid_argument);
+}

@@ -102,6 +102,7 @@ TEST_CASE("PLY: every attribute of the register has its columns and comes back w
       "double "
       "rest_length_01\n"
       "property double rest_length_12\nproperty double rest_length_20\n"
+      "property list uchar double texcoord_2\n"
       "element edge 18\nproperty int vertex1\nproperty int vertex2\nproperty double rest_length\n"
       "property double bending_rest_length\nproperty double rest_angle\nproperty double stiffness\n"
       "property double bending_stiffness\nproperty double hinge_stiffness\nproperty double tension\n"

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "physics/cloth/elements.h"
 #include "tests/physics/cloth/test_cloths.h"
 
 using namespace furrow::physics;
@@ -51,4 +52,24 @@ TEST_CASE("pins: hinges between a held and a free flap count double, others do n
   CHECK(stiffness({0, 1, 2}) == std::array{6.0, 3.0, 3.0});     // a clamp
   CHECK(stiffness({0, 1, 2, 3}) == std::array{3.0, 6.0, 3.0});  // one flap further
   CHECK(stiffness({0, 1, 2, 3, 4, 5}) == std::array{3.0, 3.0, 3.0});
+}
+
+TEST_CASE("pins: elements that are held push nothing that moves, and can be left out") {
+  Cloth cloth = sheet(5, 5, 0.1);
+  for (std::size_t i = 0; i < cloth.particles.size(); ++i) cloth.particles.x[i] += Vec3(0, 0.01 * (i % 3), 0);
+  std::vector<int> far;
+  for (int i = 0; i < 25; ++i)
+    if (i % 5 > 1) far.push_back(i);
+  pin(cloth.particles, far);
+  Cloth near = cloth;
+  drop_held_elements(near);
+  CHECK(near.membrane.size() + near.structural.size() + near.tension.size() <
+        cloth.membrane.size() + cloth.structural.size() + cloth.tension.size());
+  CHECK(near.hinges.size() + near.bending.size() < cloth.hinges.size() + cloth.bending.size());
+  CHECK(near.triangles == cloth.triangles);
+  std::vector<Vec3> all(25, Vec3::Zero()), some(25, Vec3::Zero());
+  add_forces(cloth, cloth.particles.x, all);
+  add_forces(near, cloth.particles.x, some);
+  for (int i = 0; i < 25; ++i)
+    if (i % 5 <= 1) CHECK((all[i] - some[i]).norm() <= 1e-12 * all[i].norm());
 }
