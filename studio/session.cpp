@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "io/base/figure_path.h"
 #include "jobs/move/give_motion.h"
 #include "jobs/sketch/give_sketch.h"
 #include "jobs/sketch/sketch_lines.h"
@@ -325,7 +324,7 @@ Json Session::give(const Json& body) {
   const std::filesystem::path original = project_->folder() / garment;
   const std::string as = text_of(body, "as");
   if (as == "moving glb" || as == "pc2")
-    return give_animation(io::stem_of(original) + (as == "pc2" ? ".pc2" : "-moving.glb"));
+    return give_animation(jobs::title_of(original) + (as == "pc2" ? ".pc2" : "-moving.glb"));
   const std::filesystem::path path = jobs::give_sketch(sketch_, strokes_on(project_->now().drawing), as,
                                                        original, project_->folder() / "give", *this);
   return {{"file", std::filesystem::absolute(path).lexically_normal().string()}};

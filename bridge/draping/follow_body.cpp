@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "bridge/arrays/convert.h"
 #include "geometry/mesh/preconditions.h"
@@ -14,8 +13,9 @@ namespace {
 
 using physics::Vec3;
 
-constexpr double skin = 0.002;        // added to distances, so that no pull is endless [m]
-constexpr double near_enough = 2e-5;  // that a push leaves [m]
+constexpr double skin = 0.002;           // added to distances, so that no pull is endless [m]
+constexpr double near_enough = 2e-5;     // that a push leaves [m]
+constexpr double farthest_aside = 0.01;  // that a vertex is pushed which lacked nothing itself [m]
 constexpr int most_rounds = 40, straight_rounds = 5;
 
 /// Weights of a triangle's corners for the point of its plane below x, clamped to its inside.
@@ -105,7 +105,7 @@ void BodyFollower::factor(const geometry::Mesh& garment) {
   matrix.setFromTriplets(entries.begin(), entries.end());
   factor_.compute(matrix);
   if (factor_.info() != Eigen::Success)
-    throw std::runtime_error("BodyFollower: the garment's matrix has no factor");
+    geometry::refuse("BodyFollower", "a vertex of the garment is not finite");
 }
 
 Vec3 BodyFollower::place_of(const Sample& sample, std::span<const Vec3> moves) const {
@@ -155,6 +155,9 @@ void BodyFollower::spread(std::vector<Vec3>& pushes, const std::vector<char>& pu
 
 void BodyFollower::push_out(std::vector<Vec3>& moves, std::span<const Vec3> body_moves) const {
   const physics::ExactDistance body = moved_body(body_moves);
+  const std::vector<Vec3> begun = moves;
+  std::vector<double> most(moves.size(),
+                           0);  // what a vertex lacked at first [m]: where a body meets itself, no push helps
   for (int round = 0; round < most_rounds; ++round) {
     std::vector<Vec3> pushes(moves.size(), Vec3::Zero());
     std::vector<char> pushed(moves.size(), 0);
@@ -165,6 +168,7 @@ void BodyFollower::push_out(std::vector<Vec3>& moves, std::span<const Vec3> body
       for (int k = 0; k < 3; ++k) {
         const std::size_t v = std::size_t(sample.vertices[k]);
         if (sample.weights[k] == 0) continue;
+        if (round == 0) most[v] = std::max(most[v], lack);
         // Between two sides of a crease each push would lead to the other one.
         const Vec3 push =
             lack * (round < straight_rounds ? at.gradient : (at.gradient + outward_[v]).normalized());
@@ -174,7 +178,12 @@ void BodyFollower::push_out(std::vector<Vec3>& moves, std::span<const Vec3> body
     }
     if (std::ranges::none_of(pushed, [](char p) { return p != 0; })) return;
     spread(pushes, pushed);
-    for (std::size_t v = 0; v < moves.size(); ++v) moves[v] += pushes[v];
+    for (std::size_t v = 0; v < moves.size(); ++v) {
+      moves[v] += pushes[v];
+      const Vec3 whole = moves[v] - begun[v];
+      const double allowed = 3 * most[v] + farthest_aside;
+      if (whole.norm() > allowed) moves[v] = begun[v] + allowed / whole.norm() * whole;
+    }
   }
 }
 

@@ -27,7 +27,8 @@ struct FollowOptions {
 class BodyFollower {
  public:
   /// The body's triangles as they lie when the garment fits [m]; any soup that ExactDistance takes. Throws
-  /// std::invalid_argument for options out of range, or a garment without faces. O(n) but for the factor,
+  /// std::invalid_argument for options out of range, or a garment without faces or
+  /// with a place that is not finite. O(n) but for the factor,
   /// O(n^1.5).
   BodyFollower(const geometry::Mesh& garment, const physics::TriangleMesh& body,
                const FollowOptions& options = {});

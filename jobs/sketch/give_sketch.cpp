@@ -63,6 +63,8 @@ fs::path write_maps(const fs::path& folder, const fs::path& original, io::MeshFi
 
 }  // namespace
 
+std::string title_of(const fs::path& garment) { return io::stem_of(garment); }
+
 fs::path give_sketch(const Sketch& sketch, const Json& strokes, const std::string& as,
                      const fs::path& original, const fs::path& folder, Listener& listener) {
   const bool on_original = as == "original", maps = as == "maps";

@@ -17,4 +17,7 @@ std::filesystem::path give_sketch(const Sketch& sketch, const Json& strokes, con
                                   const std::filesystem::path& original, const std::filesystem::path& folder,
                                   Listener& listener);
 
+/// What a garment is called by its path, in names of files.
+std::string title_of(const std::filesystem::path& garment);
+
 }  // namespace furrow::jobs

@@ -117,8 +117,18 @@ const Mistake mistakes[] = {
     {"a fabric without an action, misspelt", "fabric cottn", 2,
      "error: action: 'cottn' is none of list, show, drape, fit; did you mean furrow fabric show cotton?; "
      "furrow fabric --help tells more"},
-    {"another program's file", "drape {d}/a.fbx --body {m}/mannequin.obj -o {d}/o.ply", 3,
-     "error: {d}/a.fbx: unknown format '.fbx'; {formats}; export it as GLB or OBJ"},
+    {"another program's file", "drape {d}/a.blend --body {m}/mannequin.obj -o {d}/o.ply", 3,
+     "error: {d}/a.blend: unknown format '.blend'; {formats}; export it as GLB or OBJ"},
+    {"a damaged file of another program", "info {d}/a.fbx", 3,
+     "error: {d}/a.fbx: assimp reads no mesh from it: FBX-Tokenize (offset 0x0) file is too short; export it "
+     "as "
+     "GLB or OBJ"},
+    {"a garment and its body in one file", "drape {m}/skirt.obj --body {m}/skirt.obj -o {d}/o.ply", 2,
+     "error: garment: is the body's file {m}/skirt.obj, too; name one figure of a GLB for each, as "
+     "garment=avatar.glb#Skirt and body=avatar.glb#Body, or give two files"},
+    {"a figure of a file that has none", "info {m}/skirt.obj#Skirt", 3,
+     "error: {m}/skirt.obj#Skirt: unknown format "
+     "'.obj#skirt'; {formats}"},
     {"a file that Git LFS did not bring", "info {d}/pointer.obj", 3,
      "error: {d}/pointer.obj: is a pointer of Git LFS, not the file itself; git lfs pull brings that"},
     {"an integrator misspelt", "simulate {m}/sheet.obj --integrator leapfrogg -o {d}/o.ply", 2,
@@ -190,6 +200,7 @@ void write_files(const ScratchDirectory& d) {
   };
   write_text(d / "empty.obj", "");
   write_text(d / "a.fbx", "Kaydara FBX Binary");
+  write_text(d / "a.blend", "BLENDER-v304");
   write_text(d / "pointer.obj", "version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12345\n");
   write_text(d / "named.toml", "garment = \"skirt.obj\"\n");
   write_text(d / "bad.obj", "v 0 0 0\nv 1 0 zero\n");

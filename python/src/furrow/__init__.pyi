@@ -368,6 +368,23 @@ def transfer(
     progress: Optional[Progress] = None,
     cancel: Optional[Cancel] = None,
 ) -> Result: ...
+def follow(
+    garment: Garment,
+    *,
+    body: Optional[Garment] = None,
+    body_keys: Union[Garment, Sequence[Garment], None] = None,
+    keys: Union[str, Sequence[str], None] = None,
+    output: Optional[Path] = None,
+    gap: Optional[float] = None,
+    poke: Optional[float] = None,
+    mixes: Optional[int] = None,
+    unit: Optional[Literal["m", "cm", "mm", "inch"]] = None,
+    up: Optional[Literal["y", "z"]] = None,
+    force: Optional[bool] = None,
+    replace: Optional[bool] = None,
+    progress: Optional[Progress] = None,
+    cancel: Optional[Cancel] = None,
+) -> Result: ...
 def bake(
     low: Garment,
     high: Garment,
