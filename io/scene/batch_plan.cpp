@@ -166,7 +166,8 @@ class Files {
     const auto known = hashes_.find(text);
     if (known != hashes_.end()) return known->second;
     std::error_code ignored;
-    const bool is_file = text.starts_with('/') && std::filesystem::is_regular_file(file_of_figure(text), ignored);
+    const bool is_file =
+        text.starts_with('/') && std::filesystem::is_regular_file(file_of_figure(text), ignored);
     return hashes_[text] = is_file ? "file " + content_hash(std::filesystem::path(text)) : text;
   }
 

@@ -19,7 +19,8 @@ namespace fs = std::filesystem;
 fs::path find_garment(const io::WrinkleRecord& record, const fs::path& wrinkled) {
   const fs::path named = record.garment, folder = wrinkled.parent_path();
   for (const fs::path& path : {named, folder / named, folder / named.filename()})
-    if (fs::is_regular_file(io::file_of_figure(path)) && io::content_hash(path) == record.garment_hash) return path;
+    if (fs::is_regular_file(io::file_of_figure(path)) && io::content_hash(path) == record.garment_hash)
+      return path;
   throw geometry::ContentError(
       wrinkled.string() + ": the garment '" + record.garment +
       "' that its lines were drawn on is not there, or has changed; lay it beside this "

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// libFuzzer's entry for one reader, that of FUZZ_FORMAT in the environment; scripts/fuzz builds and runs it. A reader
-// may refuse its bytes as content or as a wrong option; anything else is a finding.
+// libFuzzer's entry for one reader, that of FUZZ_FORMAT in the environment; scripts/fuzz builds and runs it.
+// A reader may refuse its bytes as content or as a wrong option; anything else is a finding.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
