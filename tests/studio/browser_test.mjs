@@ -426,6 +426,55 @@ async function broughtToAnother() {
   await tab.close();
 }
 
+/** Meshes of ours as figures of one GLB. */
+function avatar(path, figures) {
+  const all = { asset: { version: "2.0" }, scene: 0, scenes: [{ nodes: [] }], nodes: [], meshes: [], accessors: [], bufferViews: [] };
+  const chunks = [];
+  let length = 0;
+  for (const [name, mesh] of Object.entries(figures)) {
+    const made = spawnSync(furrow, ["smooth", join(meshes, mesh), "--iterations", "0", "-o", "one.glb", "--quiet"], { cwd: scratch });
+    assert.equal(made.status, 0);
+    const bytes = readFileSync(join(scratch, "one.glb")), text = bytes.readUInt32LE(12), binary = bytes.subarray(28 + text);
+    const one = JSON.parse(bytes.toString("utf8", 20, 20 + text)), first = all.accessors.length, view = all.bufferViews.length;
+    for (const v of one.bufferViews) all.bufferViews.push({ ...v, byteOffset: length + (v.byteOffset ?? 0) });
+    for (const a of one.accessors) all.accessors.push({ ...a, bufferView: a.bufferView + view });
+    const [{ attributes, indices }] = one.meshes[0].primitives;
+    const moved = Object.fromEntries(Object.entries(attributes).map(([key, a]) => [key, a + first]));
+    all.scenes[0].nodes.push(all.nodes.length);
+    all.nodes.push({ name, mesh: all.meshes.length });
+    all.meshes.push({ primitives: [{ attributes: moved, indices: indices + first }] });
+    chunks.push(binary);
+    length += binary.length;
+  }
+  all.buffers = [{ byteLength: length }];
+  const words = JSON.stringify(all), text = Buffer.from(words + " ".repeat((4 - (Buffer.byteLength(words) % 4)) % 4)), head = Buffer.alloc(20), middle = Buffer.alloc(8);
+  [0x46546c67, 2, 28 + text.length + length, text.length, 0x4e4f534a].forEach((word, i) => head.writeUInt32LE(word, 4 * i));
+  [length, 0x004e4942].forEach((word, i) => middle.writeUInt32LE(word, 4 * i));
+  writeFileSync(path, Buffer.concat([head, text, middle, ...chunks]));
+}
+
+/** Of a file with an avatar and its skirt each is chosen by its name; the drawing is played again from it. */
+async function figuresOfOneFile() {
+  const file = join(scratch, "avatar.glb");
+  avatar(file, { Skirt: "skirt.obj", Body: "mannequin.obj" });
+  const seen = await open((await studio()).url, 0);
+  const { tab } = seen, dialog = tab.locator("dialog.open");
+  await dialog.getByLabel("Garment", { exact: true }).setInputFiles(file);
+  await dialog.getByLabel("Garment in it").selectOption("Skirt");
+  await dialog.getByLabel("Body", { exact: true }).setInputFiles(file);
+  await dialog.getByLabel("Body in it").selectOption("Body");
+  await seen.shot("23-figures");
+  await dialog.getByRole("button", { name: "Open", exact: true }).click();
+  await until("the skirt", async () => (await tab.locator("h1").innerText()).startsWith("avatar"));
+  await still(seen);
+  await tab.keyboard.press("r");
+  await (await stroke(tab, [[0.53, 0.4], [0.53, 0.7]]))();
+  await seen.at(1);
+  replay(await tab.locator("h1").innerText());
+  assert.deepEqual(seen.faults, []);
+  await tab.close();
+}
+
 /** A pocket lies on the sheet: its box is ticked, lets it go, and undo ticks it again. */
 async function partFreed() {
   const corners = [[-0.05, 0.1], [0.05, 0.1], [0.05, 0.2], [-0.05, 0.2]].map(([x, y]) => `v ${x} ${y} 0.002\n`);
@@ -466,6 +515,7 @@ await run(async () => {
   await end(first.program);
   await sheet();
   await partFreed();
+  await figuresOfOneFile();
   await drapedAsDrawn();
   await gathered();
   await drapedFlat();
