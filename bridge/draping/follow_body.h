@@ -12,7 +12,7 @@ namespace furrow::bridge {
 
 struct FollowOptions {
   double reach = 0.01;  ///< off the skin at which a vertex follows as wide a patch of it [m]; > 0
-  double gap = 0.001;   ///< that is kept, where the garment kept it from the body as it was [m]; >= 0
+  double gap = 0.003;   ///< that is kept, where the garment kept it from the body as it was [m]; >= 0
 };
 
 /// How a garment that fits a body goes along as the body changes its shape, its vertices and triangles the

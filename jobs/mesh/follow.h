@@ -15,7 +15,7 @@ struct FollowJob {
   std::vector<MeshInput> body_keys =
       {};  ///< the body in other shapes, its vertices the same: each is a key more
   std::vector<std::string> keys = {};  ///< the body's keys to follow; none: all
-  double gap = 0.001;                  ///< that is kept from the body, where the garment kept it [m]; >= 0
+  double gap = 0.003;                  ///< that is kept from the body, where the garment kept it [m]; >= 0
   double poke = 0.001;                 ///< depth from which two keys together get a corrective key [m]; > 0
   int mixes = 200;                     ///< random mixtures of keys that are tried at the end, in [0, 10000]
   Frame frame = {};                    ///< of the files read and written
