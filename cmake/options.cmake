@@ -42,9 +42,6 @@ function(furrow_add_library name)
   target_link_libraries(${name} PUBLIC $<BUILD_INTERFACE:furrow_options>)
   target_compile_features(${name} PUBLIC cxx_std_20)
   target_compile_options(${name} INTERFACE $<INSTALL_INTERFACE:-ffp-contract=off>)
-  if(FURROW_FUZZ AND NOT name STREQUAL physics)  # readers and what they make meshes with; a sixth more time to compile
-    target_compile_options(${name} PRIVATE -fsanitize=fuzzer-no-link)
-  endif()
   # Optimised, the library of physics stays apart: where time is measured, what is tested is what users build.
   if(CMAKE_BUILD_TYPE STREQUAL Debug OR NOT name STREQUAL physics)
     furrow_unite(${name})

@@ -97,7 +97,8 @@ TEST_CASE("rigid_motion: free ends run uniformly between two keyframes and meet 
   CHECK(pose(two, 4).translation == Vec3(2, -1, 4));
   RigidMotion parabola;  // x = t^2, y = (2 - t)^2, z turns back sharply
   parabola.ends = EndSpeeds::free;
-  for (const double t : {0.5, 1.0, 1.8}) parabola.keyframes.push_back({t, {t * t, (2 - t) * (2 - t), 0}, {}});
+  for (const double t : {0.5, 1.0, 1.8})
+    parabola.keyframes.push_back({t, {t * t, (2 - t) * (2 - t), 0}, {0, 0, 0}});
   parabola.keyframes[1].translation.z() = 1;
   const double h = 1e-6;
   const Vec3 first = (pose(parabola, 0.5 + h).translation - pose(parabola, 0.5).translation) / h;
