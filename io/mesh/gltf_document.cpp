@@ -113,6 +113,7 @@ std::string_view GltfDocument::buffer_of(std::size_t number) {
 
 std::string GltfDocument::elements_of(const json& accessor) {
   const std::size_t size = gltf_element_size(accessor);
+  if (size == 0) throw ContentError("an accessor is of no known type");
   const json& view = root["bufferViews"][index_in(list_of(root, "bufferViews"), accessor.at("bufferView"))];
   const std::string_view bytes = bytes_of(view);
   const std::size_t count = count_of(accessor, "count"), at = count_of(accessor, "byteOffset");

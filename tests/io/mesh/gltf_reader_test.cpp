@@ -327,6 +327,18 @@ TEST_CASE("glTF: an avatar of VRM is read as the GLB that it is and goes back as
   }
 }
 
+TEST_CASE("glTF: accessors of no known type are refused, whatever they are of") {
+  for (std::size_t accessor = 0; accessor < 6; ++accessor)
+    for (const auto& [key, value] : {std::pair<const char*, json>{"componentType", 5124},
+                                     {"componentType", "float"},
+                                     {"type", "VEC9"}}) {
+      SkinnedSeam seam;
+      seam.scene["accessors"][accessor][key] = value;
+      INFO(accessor << key);
+      CHECK(error_of_glb(seam.glb()).find("a.glb: ") != std::string::npos);
+    }
+}
+
 TEST_CASE("glTF: strips and fans are triangles, and what has no indices takes its vertices in their order") {
   const auto turns_up = [](const io::MeshFile& file) {
     for (const Face f : file.mesh->faces()) {
