@@ -237,6 +237,7 @@ void check_figures(const io::Scene& scene) {
   const io::FigurePath garment = io::figure_path(scene.garment), body = io::figure_path(scene.body->mesh);
   const bool apart = !garment.figure.empty() && !body.figure.empty() && garment.figure != body.figure;
   if (apart || !same_file(garment.file.string(), body.file.string())) return;
+  if (io::mesh_format(garment.file) != io::MeshFormat::gltf) return;  // the gate sees what is worn on itself
   throw std::invalid_argument("garment: is the body's file " + garment.file.string() +
                               ", too; name one figure of a GLB for each, as garment=avatar.glb#Skirt and "
                               "body=avatar.glb#Body, or give two files");

@@ -123,9 +123,6 @@ const Mistake mistakes[] = {
      "error: {d}/a.fbx: assimp reads no mesh from it: FBX-Tokenize (offset 0x0) file is too short; export it "
      "as "
      "GLB or OBJ"},
-    {"a garment and its body in one file", "drape {m}/skirt.obj --body {m}/skirt.obj -o {d}/o.ply", 2,
-     "error: garment: is the body's file {m}/skirt.obj, too; name one figure of a GLB for each, as "
-     "garment=avatar.glb#Skirt and body=avatar.glb#Body, or give two files"},
     {"a figure of a file that has none", "info {m}/skirt.obj#Skirt", 3,
      "error: {m}/skirt.obj#Skirt: unknown format "
      "'.obj#skirt'; {formats}"},
@@ -245,5 +242,18 @@ TEST_CASE("mistakes: each ends with its exit code and a sentence that helps", "[
       CHECK_FALSE(std::filesystem::exists(d / output));
     // No file is named twice in a row.
     CHECK_FALSE(std::regex_search(told, std::regex("([^ ]+): \\1:")));
+  }
+}
+
+TEST_CASE("mistakes: a GLB that is both garment and body is refused before anything is searched") {
+  const ScratchDirectory scratch;
+  const std::string glb = scratch / "a.glb",
+                    drape = "drape " + glb + " -o " + (scratch / "o.ply") + " --body ";
+  REQUIRE(run_furrow("smooth " + source_file("meshes/sheet.obj") + " --iterations 0 -o " + glb).exit_code ==
+          0);
+  for (const char* figure : {"", "#cloth"}) {
+    const Run run = run_furrow(drape + glb + figure);
+    CHECK(run.exit_code == 2);
+    CHECK(run.err.find("name one figure of a GLB for each") != std::string::npos);
   }
 }
