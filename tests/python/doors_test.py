@@ -79,6 +79,7 @@ def ball():
 # What a job needs beside its inputs, or in place of a sheet.
 NEEDS = {"drape": {"pin_vertices": [0, 1, 2, 3]}, "fit": {"body": ball}, "subdivide": {"all": True},
          "keep": {"garment": wrinkled, "pin_vertices": [0, 1, 2, 3], "gust": 0.0}, "transfer": {"wrinkled": wrinkled},
+         "follow": {"body": sheet, "body_keys": lambda: [sheet()], "mixes": 3},
          "bake": {"output": "maps"}, "body": {"mesh": lambda: furrow.read_mesh(MESHES / "mannequin.obj")}}
 
 
